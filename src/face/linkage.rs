@@ -8,11 +8,13 @@ use crate::derivation::{derive_linkage, sphere_trace, trace, transfer};
 use crate::error::{Error, Result};
 use crate::kinematics::joint::Variable;
 use crate::kinematics::linkage::Given;
+use crate::linkage::answer::solve_asked;
 use crate::report::linkage_sweep::{Asked, Traced};
 use crate::report::{linkage, linkage_derivation, linkage_mobility, linkage_sweep, space, sphere, sphere_sweep};
 use crate::sweep::{Range, sweep_linkage, sweep_sphere};
 use crate::view::drawable;
 use serde_json::Value;
+use std::sync::atomic::AtomicBool;
 
 /// A linkage: bodies with points, and the joints between them.
 pub struct Linkage {
@@ -106,7 +108,8 @@ impl Linkage {
         let mut document = match &self.file {
             Kind::Plane(file) => {
                 let case = self.plane_case(file, given)?;
-                let answer = crate::linkage::answer::solve(&file.linkage, &case.given, file.accuracy(&case))?;
+                let asked = crate::linkage::assembly::Asked { complex, stop: &AtomicBool::new(false) };
+                let answer = solve_asked(&file.linkage, &case.given, file.accuracy(&case), asked)?;
                 linkage::json(file, &[linkage::result(file, &case, 1, &answer, complex)])
             }
             Kind::Sphere(file) => {

@@ -1,6 +1,6 @@
 //! The answer to one case of a linkage: its assemblies as numbers, and the verdict on their list.
 
-use super::assembly::{Assemblies, Route, Solution, assemblies, assemblies_within};
+use super::assembly::{Asked, Assemblies, Route, Solution, assemblies, assemblies_within};
 use super::isotropic::{Value, middle};
 use super::state::{Number, State, number};
 use crate::algebra::ring::Ring;
@@ -9,6 +9,7 @@ use crate::kinematics::linkage::{Accuracy, Given, Linkage, Pair};
 use crate::verdict::{Code, Proof, Status, Verdict};
 use num_complex::Complex;
 use rug::Float;
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// A joint value or a coordinate, real of a real assembly.
@@ -68,17 +69,34 @@ pub struct LinkageAnswer {
     pub solve_us: f64,
 }
 
-/// Finds all assemblies with these inputs.
+/// Finds all assemblies with these inputs; of large groups all real ones.
 ///
 /// # Errors
 /// Where inputs are too few, too many or meet a rigid part, and for groups that are beyond what is implemented.
 pub fn solve(linkage: &Linkage, given: &[Given], accuracy: Accuracy) -> Result<LinkageAnswer> {
+    solve_asked(linkage, given, accuracy, Asked { complex: false, stop: &AtomicBool::new(false) })
+}
+
+/// As [`solve`], for complex assemblies of large groups as well where they are asked for. A search that is ended is incomplete.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_asked(linkage: &Linkage, given: &[Given], accuracy: Accuracy, asked: Asked<'_>) -> Result<LinkageAnswer> {
     let start = Instant::now();
     // What discs decide holds for the angles themselves; where they leave a doubt, or ends coincide, the rounded ones are taken.
-    let within = if accuracy == Accuracy::Enclosed { Some(assemblies_within(linkage, given)?) } else { None };
+    let within = if accuracy == Accuracy::Enclosed { Some(assemblies_within(linkage, given, asked)?) } else { None };
     let within = within.filter(|found| found.doubt.is_none() && found.curves.is_empty());
-    let exact = within.is_some() || accuracy == Accuracy::Exact;
-    let found = within.map_or_else(|| assemblies(linkage, given), Ok)?;
+    let (found, exact) = match within {
+        Some(within) if !within.only_real => (within, true),
+        within => {
+            // All complex assemblies of the rounded angles say more than the real ones of the angles themselves.
+            let rounded = assemblies(linkage, given, asked)?;
+            match within {
+                Some(within) if rounded.only_real || rounded.doubt.is_some() => (within, true),
+                _ => (rounded, accuracy == Accuracy::Exact),
+            }
+        }
+    };
     let mut modes: Vec<LinkageMode> = found.modes.iter().map(|state| mode(linkage, state)).collect();
     let key = |mode: &LinkageMode| mode.bodies.iter().map(|(angle, _)| angle.re).collect::<Vec<f64>>();
     modes.sort_by(|a, b| {
@@ -113,6 +131,7 @@ fn route(group: &Solution) -> String {
     match group.route {
         Route::Quadratic => "quadratic".to_owned(),
         Route::Pencil(rows) => format!("pencil of {rows} rows"),
+        Route::Boxes(boxes) => format!("{boxes} boxes of angles"),
         Route::Gears(1) => "Gröbner basis of a pair of gears".to_owned(),
         Route::Gears(pairs) => format!("Gröbner basis of {pairs} pairs of gears"),
     }
@@ -134,7 +153,13 @@ fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily]
     let rounded = Proof::Proved.of_rounded(!exact);
     let has = |wanted: fn(&Route) -> bool| found.groups.iter().any(|group| wanted(&group.route));
     let (pencils, gears) = (has(|r| matches!(r, Route::Pencil(_))), has(|r| matches!(r, Route::Gears(_))));
-    let code = if pencils || gears { Code::ExactRootsMatched } else { Code::GeneralBoundMet };
+    let code = if found.only_real {
+        Code::BoxesExhausted
+    } else if pencils || gears {
+        Code::ExactRootsMatched
+    } else {
+        Code::GeneralBoundMet
+    };
     let because = match (pencils, gears) {
         (true, false) => "every root of the exact closure polynomials is a certified assembly",
         (false, false) => "dyads have two each",
@@ -157,6 +182,11 @@ fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily]
         let reason = "some assemblies that are not real form curves; all real ones are listed".to_owned();
         let status = if real == 0 { Status::Unreachable } else { Status::Complete };
         (status, rounded, code, reason)
+    } else if found.only_real {
+        let status = if real == 0 { Status::Unreachable } else { Status::Complete };
+        let list = if real == 0 { "no assembly is real".to_owned() } else { format!("{real} real assemblies of groups of {counts}") };
+        let reason = format!("{list}: every box of angles is proved to hold none but these; complex ones were not looked for");
+        (status, rounded, code, reason)
     } else if real == 0 {
         let far = match found.gap {
             Some(gap) if gap > 0.0 => format!("; links of a dyad are too short or too long by {gap:.6} m at least"),
@@ -172,7 +202,7 @@ fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily]
         status,
         proof,
         code,
-        complex_complete: complete,
+        complex_complete: complete && !found.only_real,
         complex,
         real,
         at_infinity: 0,

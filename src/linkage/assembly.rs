@@ -1,17 +1,19 @@
 //! All assemblies of a linkage: its groups solved one after the other, branch by branch.
 
+use super::boxes::{RealAssemblies, real_assemblies};
 use super::equations::{Closure, Equations};
 use super::geared_groups::geared_groups;
 use super::gears::{geared, teeth};
-use super::general::general;
-use super::groups::{Group, Groups, MOST_CLUSTERS, Merged};
+use super::general::{general, least_rows};
+use super::groups::{Group, Groups, MOST_CLUSTERS, MOST_IN_BOXES, Merged};
 use super::isotropic::{Isotropic, Value};
-use super::krawczyk::conjugate;
+use super::krawczyk::{Proved, conjugate};
 use super::quadratic::{Root, Solved, one_cycle};
 use super::state::{Number, Place, State, place_of, place_within};
 use crate::algebra::ring::Ring;
 use crate::error::{Error, Result};
 use crate::kinematics::linkage::{Given, Linkage, Pair};
+use std::sync::atomic::AtomicBool;
 
 /// Towers of more generators are not built: the work doubles with each of them.
 const DEEP: usize = 5;
@@ -22,6 +24,23 @@ const UNDECIDED: &str = "an assembly is neither proved real nor proved complex";
 /// Most branches that are listed.
 const MOST_BRANCHES: usize = 1 << 14;
 
+/// Rows of a pencil beyond which a group is solved by boxes where only real assemblies are asked for: 96 rows (11 links) took 2 s, 224 rows (13 links)
+/// 25 s, and boxes less than 1 s for both.
+const MOST_PENCIL_ROWS: usize = 100;
+/// Cycles up to which no pencil has more rows: C(8, 4) = 70.
+const FEW_CYCLES: usize = 4;
+/// Cycles up to which pencils are made to see how large they are: C(12, 6) = 924 rows at most.
+const SEVERAL_CYCLES: usize = 6;
+
+/// What is asked of a linkage.
+#[derive(Clone, Copy, Debug)]
+pub struct Asked<'a> {
+    /// Whether complex assemblies are asked for, too, even if they take long.
+    pub complex: bool,
+    /// Ends the search of large groups when it is raised.
+    pub stop: &'a AtomicBool,
+}
+
 /// A way in which a group is solved.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Route {
@@ -31,6 +50,8 @@ pub enum Route {
     Pencil(usize),
     /// The equations of this many pairs of gears and of the cycles.
     Gears(usize),
+    /// This many boxes of angles: real assemblies only.
+    Boxes(usize),
 }
 
 /// The solution of a group.
@@ -57,6 +78,8 @@ pub struct Assemblies {
     pub groups: Vec<Solution>,
     /// Why the list may not be complete.
     pub doubt: Option<String>,
+    /// Whether only real assemblies were looked for.
+    pub only_real: bool,
     /// The least distance, metres, by which a dyad of a real branch does not close; none where all close.
     pub gap: Option<f64>,
 }
@@ -135,10 +158,13 @@ pub fn groups_of(linkage: &Linkage, given: &[Given]) -> Result<Groups> {
         );
         return Err(Error::Invalid(message));
     }
-    if let Some(group) = found.list.iter().find(|group| group.clusters.len() > MOST_CLUSTERS) {
+    let slides = |group: &Group| group.joints.iter().any(|joint| linkage.joints[*joint].is_prismatic());
+    let most = |group: &Group| if slides(group) || !group.gears.is_empty() { MOST_CLUSTERS } else { MOST_IN_BOXES };
+    if let Some(group) = found.list.iter().find(|group| group.clusters.len() > most(group)) {
         return Err(Error::Unsupported(format!(
-            "a group of {} bodies, at most {MOST_CLUSTERS} are solved: {}",
+            "a group of {} bodies, at most {} are solved: {}",
             group.clusters.len(),
+            most(group),
             named(group)
         )));
     }
@@ -161,12 +187,12 @@ fn freedoms(count: usize) -> String {
     if count == 1 { "1 freedom".to_owned() } else { format!("{count} freedoms") }
 }
 
-/// All assemblies with these inputs.
+/// All assemblies with these inputs; of groups that are solved by boxes all real ones.
 ///
 /// # Errors
 /// As [`groups_of`].
-pub fn assemblies(linkage: &Linkage, given: &[Given]) -> Result<Assemblies> {
-    placed(linkage, given, place_of)
+pub fn assemblies(linkage: &Linkage, given: &[Given], asked: Asked<'_>) -> Result<Assemblies> {
+    placed(linkage, given, place_of, asked)
 }
 
 /// All assemblies with inputs of which enclosures are known: what is found holds for all values within them. It is in doubt where
@@ -174,20 +200,20 @@ pub fn assemblies(linkage: &Linkage, given: &[Given]) -> Result<Assemblies> {
 ///
 /// # Errors
 /// As [`groups_of`].
-pub fn assemblies_within(linkage: &Linkage, given: &[Given]) -> Result<Assemblies> {
-    placed(linkage, given, place_within)
+pub fn assemblies_within(linkage: &Linkage, given: &[Given], asked: Asked<'_>) -> Result<Assemblies> {
+    placed(linkage, given, place_within, asked)
 }
 
 /// A place of the second body of an input against the first.
 type Placing = fn(&Linkage, &Given) -> Option<Place>;
 
-fn placed(linkage: &Linkage, given: &[Given], place: Placing) -> Result<Assemblies> {
+fn placed(linkage: &Linkage, given: &[Given], place: Placing, asked: Asked<'_>) -> Result<Assemblies> {
     let groups = groups_of(linkage, given)?;
     let start = started(linkage, given, place)?;
-    let shallow = attempt(linkage, &start, &groups, SHALLOW)?;
+    let shallow = attempt(linkage, &start, &groups, SHALLOW, asked)?;
     // Square roots are kept as such only where a disc about zero decides nothing.
     if shallow.doubt.is_some() && groups.list.iter().any(|group| group.clusters.len() <= 3) {
-        let deep = attempt(linkage, &start, &groups, DEEP)?;
+        let deep = attempt(linkage, &start, &groups, DEEP, asked)?;
         if deep.doubt.is_none() {
             return Ok(deep);
         }
@@ -217,10 +243,23 @@ fn started(linkage: &Linkage, given: &[Given], place: Placing) -> Result<State> 
     Ok(start)
 }
 
-fn attempt(linkage: &Linkage, start: &State, groups: &Groups, highest: usize) -> Result<Assemblies> {
+fn attempt(
+    linkage: &Linkage,
+    start: &State,
+    groups: &Groups,
+    highest: usize,
+    asked: Asked<'_>,
+) -> Result<Assemblies> {
     let mut start = start.clone();
     start.top.highest = highest;
-    let mut found = Assemblies { modes: Vec::new(), curves: Vec::new(), groups: Vec::new(), doubt: None, gap: None };
+    let mut found = Assemblies {
+        modes: Vec::new(),
+        curves: Vec::new(),
+        groups: Vec::new(),
+        doubt: None,
+        only_real: false,
+        gap: None,
+    };
     let mut branches = vec![start];
     for group in &groups.list {
         let mut names: Vec<usize> = Vec::new();
@@ -237,7 +276,7 @@ fn attempt(linkage: &Linkage, start: &State, groups: &Groups, highest: usize) ->
                 return Err(Error::Unsupported("a group with gears".to_owned()));
             };
             if group.gears.is_empty() {
-                branch(&closure, group, state, &mut solution, &mut next, &mut found);
+                branch(&closure, group, state, &mut solution, &mut next, &mut found, asked);
             } else {
                 solution.route = Route::Gears(group.gears.len());
                 let solved = geared(linkage, &closure, group, state);
@@ -262,17 +301,31 @@ fn branch(
     solution: &mut Solution,
     next: &mut Vec<State>,
     found: &mut Assemblies,
+    asked: Asked<'_>,
 ) {
     let equations = &closure.equations;
     if equations.loops() == 1 {
         add(one_cycle(equations, &state.top), closure, group, state, solution, next, found);
         return;
     }
+    if equations.slides.is_empty() && !has_pencil(equations, asked.complex) {
+        by_boxes(closure, group, state, solution, next, found, asked);
+        return;
+    }
     let general = general(equations);
     solution.route = Route::Pencil(general.size);
     let proved: usize = general.solutions.len();
     solution.count = solution.count.max(general.most.unwrap_or(proved));
-    if general.most != Some(proved) {
+    let is_complete = general.most == Some(proved);
+    // What leaves the complex list in doubt, as multiple roots do, need not be near a real assembly.
+    let boxes = if is_complete || !state.real { None } else { real_assemblies(equations, asked.stop) };
+    if let Some(real) = boxes.filter(|real| real.doubt.is_none()) {
+        add_boxes(real, closure, group, state, solution, next, found);
+        let complex = general.solutions.iter().filter(|one| one.real == Some(false));
+        next.extend(complex.map(|one| assembled(closure, state, one, false)));
+        return;
+    }
+    if !is_complete {
         let reason = general.doubt.unwrap_or_else(|| "the number of assemblies of a group is not known".to_owned());
         found.doubt.get_or_insert(format!("{reason} (group of {} bodies)", group.clusters.len()));
     }
@@ -281,10 +334,68 @@ fn branch(
             found.doubt.get_or_insert_with(|| UNDECIDED.to_owned());
             continue;
         };
-        let mut next_state = closure.assembled(state, &proved.root.turns, &proved.root.shifts);
-        next_state.real = real;
-        next.push(next_state);
+        next.push(assembled(closure, state, proved, real));
     }
+}
+
+/// The branch with a solution of a group in it.
+fn assembled(closure: &Closure, state: &State, proved: &Proved, real: bool) -> State {
+    let mut next = closure.assembled(state, &proved.root.turns, &proved.root.shifts);
+    next.real = real;
+    next
+}
+
+/// Whether a group has rational data and a pencil, of moderate size where only real assemblies are asked for.
+fn has_pencil(equations: &Equations<Number>, complex: bool) -> bool {
+    let Some(exact) = equations.exact() else { return false };
+    match equations.loops() {
+        ..=FEW_CYCLES => true,
+        ..=SEVERAL_CYCLES => complex || least_rows(&exact).is_some_and(|rows| rows <= MOST_PENCIL_ROWS),
+        _ => false,
+    }
+}
+
+/// Adds the real assemblies that a group has in one branch, where no others are looked for.
+fn by_boxes(
+    closure: &Closure,
+    group: &Group,
+    state: &State,
+    solution: &mut Solution,
+    next: &mut Vec<State>,
+    found: &mut Assemblies,
+    asked: Asked<'_>,
+) {
+    // An assembly of the whole that is real is so in its parts.
+    if !state.real {
+        found.only_real = true;
+        return;
+    }
+    match real_assemblies(&closure.equations, asked.stop) {
+        Some(real) => add_boxes(real, closure, group, state, solution, next, found),
+        None => {
+            found.doubt.get_or_insert(format!("a group of {} bodies is too large", group.clusters.len()));
+        }
+    }
+}
+
+/// Adds the assemblies that boxes have led to in one branch.
+fn add_boxes(
+    real: RealAssemblies,
+    closure: &Closure,
+    group: &Group,
+    state: &State,
+    solution: &mut Solution,
+    next: &mut Vec<State>,
+    found: &mut Assemblies,
+) {
+    found.only_real = true;
+    let before = if let Route::Boxes(boxes) = solution.route { boxes } else { 0 };
+    solution.route = Route::Boxes(before + real.boxes);
+    solution.count = solution.count.max(real.solutions.len());
+    if let Some(doubt) = real.doubt {
+        found.doubt.get_or_insert(format!("{doubt} (group of {} bodies)", group.clusters.len()));
+    }
+    next.extend(real.solutions.iter().map(|one| assembled(closure, state, one, true)));
 }
 
 /// Adds the assemblies that a group has in one branch.

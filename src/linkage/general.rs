@@ -120,7 +120,7 @@ fn extend(
 }
 
 /// Whether two solutions are proved to be different: by rotations against the class `rest`, and by slides.
-fn differ(one: &Proved, two: &Proved, rest: usize) -> bool {
+pub(super) fn differ(one: &Proved, two: &Proved, rest: usize) -> bool {
     let apart = |a: &Number, b: &Number| a.z.disc.sub(&b.z.disc).is_not_zero();
     let (one, two) = (&one.root, &two.root);
     let against = |root: &Root| -> Vec<Number> {
@@ -131,8 +131,14 @@ fn differ(one: &Proved, two: &Proved, rest: usize) -> bool {
         || one.shifts.iter().zip(&two.shifts).any(|(a, b)| apart(a, b))
 }
 
-/// Classes at rest and hidden, those whose determinant has the fewest roots modulo a prime first.
-fn ranked(exact: &Equations<Isotropic<Gaussian>>) -> Vec<(usize, usize)> {
+/// Returns the least number of rows of a pencil of a group of several cycles; `None` where there is no pencil.
+#[must_use]
+pub(super) fn least_rows(exact: &Equations<Isotropic<Gaussian>>) -> Option<usize> {
+    pencils(exact).first().map(|(_, _, pencil)| pencil.sets.len())
+}
+
+/// The pencils modulo a prime for all classes at rest and hidden, the smallest first.
+fn pencils(exact: &Equations<Isotropic<Gaussian>>) -> Vec<(usize, usize, Pencil<Residue>)> {
     let residues = exact.map(|n| Some(Isotropic { z: residue(&n.z)?, w: residue(&n.w)? }));
     let Some(residues) = residues else { return Vec::new() };
     let mut rest: Vec<usize> = (0..exact.classes).collect();
@@ -148,8 +154,13 @@ fn ranked(exact: &Equations<Isotropic<Gaussian>>) -> Vec<(usize, usize)> {
         .collect();
     pencils.retain(|(_, _, pencil)| !pencil.sets.is_empty());
     pencils.sort_by_key(|(_, _, pencil)| pencil.sets.len());
+    pencils
+}
+
+/// Classes at rest and hidden, those whose determinant has the fewest roots modulo a prime first.
+fn ranked(exact: &Equations<Isotropic<Gaussian>>) -> Vec<(usize, usize)> {
     let mut ranked: Vec<(usize, usize, usize)> = Vec::new();
-    for (rest, hidden, pencil) in &pencils {
+    for (rest, hidden, pencil) in &pencils(exact) {
         if ranked.len() >= PAIRS {
             break;
         }

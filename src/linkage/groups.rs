@@ -7,8 +7,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Most clusters of a group: the pencil of a group of L loops has up to C(2L, L) rows.
+/// Most clusters of a group with slides or gears: the pencil of a group of L loops has up to C(2L, L) rows.
 pub const MOST_CLUSTERS: usize = 13;
+/// Most clusters of a group of revolute joints: the angles whose rounding errors boxes allow for, and one at rest.
+pub const MOST_IN_BOXES: usize = super::boxes::arc::MOST_ROWS + 1;
 
 /// A group: a rigid set of clusters.
 #[derive(Clone, Debug, PartialEq, Eq)]

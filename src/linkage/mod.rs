@@ -8,6 +8,7 @@
 
 pub mod answer;
 pub mod assembly;
+pub mod boxes;
 pub mod cognates;
 pub mod defects;
 pub mod dyads;

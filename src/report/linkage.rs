@@ -8,6 +8,7 @@ use super::table::{Columns, paragraph};
 use crate::catalogue::{LinkageCase, LinkageFile};
 use crate::kinematics::linkage::{Given, Linkage, LinkageJoint};
 use crate::linkage::answer::{Coordinate, LinkageAnswer, LinkageMode};
+use crate::verdict::{Code, Verdict};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -109,7 +110,7 @@ pub fn result(file: &LinkageFile, case: &LinkageCase, index: usize, answer: &Lin
             "proof": verdict.proof.word(),
             "code": verdict.code.word(),
             "complex_complete": verdict.complex_complete,
-            "complex": verdict.complex,
+            "complex": complex_count(verdict),
             "real": verdict.real,
             "at_infinity": verdict.at_infinity,
             "self_motion": verdict.self_motion,
@@ -161,18 +162,18 @@ fn mode(linkage: &Linkage, id: usize, mode: &LinkageMode) -> Value {
     Value::Object(object)
 }
 
+/// The number of complex assemblies; `None` where they were not looked for.
+fn complex_count(verdict: &Verdict) -> Option<usize> {
+    (verdict.code != Code::BoxesExhausted).then_some(verdict.complex)
+}
+
 /// The verdict on one line.
 #[must_use]
 pub fn verdict(answer: &LinkageAnswer) -> String {
     let verdict = &answer.verdict;
-    format!(
-        "{} ({}): {} complex, {} real; {}",
-        verdict.status.word(),
-        verdict.proof.word(),
-        verdict.complex,
-        verdict.real,
-        verdict.reason
-    )
+    let complex = complex_count(verdict).map_or(String::new(), |complex| format!("{complex} complex, "));
+    let (status, proof) = (verdict.status.word(), verdict.proof.word());
+    format!("{status} ({proof}): {complex}{} real; {}", verdict.real, verdict.reason)
 }
 
 /// Returns the answer to one case as tables, with complex assemblies on request.

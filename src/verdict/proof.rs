@@ -53,6 +53,8 @@ pub enum Code {
     GeometryBoundMet,
     /// Every root of the exact closure polynomial of this case belongs to exactly one listed solution.
     ExactRootsMatched,
+    /// Every box of angles is proved empty, or holds exactly one listed solution; real solutions only.
+    BoxesExhausted,
     /// The number of solutions equals a count modulo primes.
     CountMet,
     /// The closure equations have no solution at all.
@@ -129,6 +131,7 @@ impl Code {
             Self::GeneralBoundMet => "general-bound-met",
             Self::GeometryBoundMet => "geometry-bound-met",
             Self::ExactRootsMatched => "exact-roots-matched",
+            Self::BoxesExhausted => "boxes-exhausted",
             Self::CountMet => "count-met",
             Self::NoSolution => "no-solution",
             Self::OutOfReach => "out-of-reach",

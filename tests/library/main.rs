@@ -4,6 +4,7 @@ mod accuracy;
 mod allocation;
 mod arms;
 mod bennett_dyads;
+mod boxes;
 mod certificate;
 mod chains;
 mod discriminant;

@@ -9,9 +9,10 @@ use crate::algebra::univariate::Univariate;
 use crate::derivation::equation::primitive;
 use crate::error::{Error, Result};
 use crate::kinematics::linkage::{Gaussian, Given, Linkage, Pair};
-use crate::linkage::assembly::{Assemblies, assemblies, glued};
+use crate::linkage::assembly::{Asked, Assemblies, assemblies, glued};
 use crate::linkage::equations::{Closure, Equations};
 use crate::linkage::general::{residue, torus_degree};
+use crate::linkage::groups::MOST_CLUSTERS;
 use crate::linkage::isotropic::Isotropic;
 use crate::linkage::parts::{foundations, group_of};
 use crate::linkage::pencil::{Parameter, Pencil};
@@ -19,6 +20,7 @@ use crate::linkage::polynomial::closure_polynomial;
 use crate::linkage::real_form::RealForm;
 use crate::linkage::state::{State, place_of};
 use rug::{Integer, Rational};
+use std::sync::atomic::AtomicBool;
 
 /// Maximum number of rows for which the determinants of all bodies of a group are computed; beyond it only that of the best one.
 const SMALL: usize = 20;
@@ -250,9 +252,9 @@ pub fn derive_linkage(linkage: &Linkage, given: &[Given]) -> Result<LinkageDeriv
         let message = format!("closure polynomials of linkages with gears, such as {}, are not derived", gear.name);
         return Err(Error::Unsupported(message));
     }
-    let found = assemblies(linkage, given)?;
+    let found = assemblies(linkage, given, Asked { complex: true, stop: &AtomicBool::new(false) })?;
     let merged = glued(linkage, given)?.0;
-    let is_known = found.doubt.is_none() && found.curves.is_empty();
+    let is_known = found.doubt.is_none() && found.curves.is_empty() && !found.only_real;
     let mut warnings = Vec::new();
     let mut polynomials = Vec::new();
     for number in (0..found.groups.len()).rev() {
@@ -294,6 +296,9 @@ fn of_group(
 ) -> Vec<GroupPolynomial> {
     let Some(number) = needed.last().copied() else { return Vec::new() };
     let group = &found.groups[number];
+    if group.bodies.len() > MOST_CLUSTERS {
+        return Vec::new();
+    }
     let Some(part) = Part::new(linkage, given, joints_of(found, needed)) else { return Vec::new() };
     let is_end = |body: &usize| group.joints.iter().any(|joint| linkage.joints[*joint].of.contains(body));
     let Some(cluster) = group.bodies.iter().find(|bodies| bodies.contains(&linkage.ground)).or(group.bodies.first())

@@ -6,9 +6,10 @@ use super::output::Output;
 use super::solve::stop_on_interrupt;
 use looproot::internal::catalogue::LinkageFile;
 use looproot::internal::error::Error;
-use looproot::internal::linkage::answer::solve;
+use looproot::internal::linkage::answer::solve_asked;
+use looproot::internal::linkage::assembly::Asked;
 use looproot::internal::report::linkage as report;
-use looproot::internal::verdict::{Proof, Status, Verdict};
+use looproot::internal::verdict::{Code, Proof, Status, Verdict};
 use looproot::internal::view::drawable;
 use serde_json::{Value, json};
 use std::borrow::Cow;
@@ -31,9 +32,14 @@ pub fn run(options: &SolveOptions, file: &LinkageFile, output: Output) -> Result
         }
         let case = &file.cases[index];
         let line = case.given.first().map_or(case.line, looproot::internal::kinematics::linkage::Given::line);
-        let answer = solve(&file.linkage, &case.given, file.accuracy(case))
+        let asked = Asked { complex: options.complex, stop: &stop };
+        let answer = solve_asked(&file.linkage, &case.given, file.accuracy(case), asked)
             .map_err(|error| error.at(&options.mechanism, line))?;
         exit = exit.max(code(&answer.verdict));
+        // Complex assemblies that were asked for and not looked for.
+        if options.complex && answer.verdict.code == Code::BoxesExhausted {
+            exit = exit.max(Exit::NotProved);
+        }
         if options.json || options.jsonl {
             let result = report::result(file, case, index + 1, &answer, options.complex);
             if options.jsonl && !options.scene {
@@ -48,6 +54,9 @@ pub fn run(options: &SolveOptions, file: &LinkageFile, output: Output) -> Result
             let gap = if index > 0 && options.asked.input.is_none() { "\n" } else { "" };
             write!(output.writer, "{gap}{}", report::text(file, case, index + 1, &answer, options.complex))?;
         }
+    }
+    if stop.load(Ordering::Relaxed) {
+        exit = Exit::Interrupted;
     }
     if options.json || options.scene {
         written(options, report::json(file, &results), &mut output)?;
