@@ -348,11 +348,9 @@ fn assembled(closure: &Closure, state: &State, proved: &Proved, real: bool) -> S
 /// Whether a group has rational data and a pencil, of moderate size where only real assemblies are asked for.
 fn has_pencil(equations: &Equations<Number>, complex: bool) -> bool {
     let Some(exact) = equations.exact() else { return false };
-    match equations.loops() {
-        ..=FEW_CYCLES => true,
-        ..=SEVERAL_CYCLES => complex || least_rows(&exact).is_some_and(|rows| rows <= MOST_PENCIL_ROWS),
-        _ => false,
-    }
+    let is_small = || least_rows(&exact).is_some_and(|rows| rows <= MOST_PENCIL_ROWS);
+    let loops = equations.loops();
+    loops <= FEW_CYCLES || loops <= SEVERAL_CYCLES && (complex || is_small())
 }
 
 /// Adds the real assemblies that a group has in one branch, where no others are looked for.

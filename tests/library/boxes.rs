@@ -39,8 +39,14 @@ impl Planted {
 /// Bodies between points whose places in the assembly are drawn: every joint is a pair of bodies.
 fn planted(joints: &[[usize; 2]], bodies: usize, seed: u64) -> Planted {
     let mut random = random(seed);
-    let places: Vec<[i64; 2]> =
-        joints.iter().map(|_| [random.random_range(-9..=9), random.random_range(-9..=9)]).collect();
+    // A body whose two points coincide would turn freely.
+    let mut places: Vec<[i64; 2]> = Vec::new();
+    while places.len() < joints.len() {
+        let place = [random.random_range(-9..=9), random.random_range(-9..=9)];
+        if !places.contains(&place) {
+            places.push(place);
+        }
+    }
     let mut planted = Planted { bodies: Vec::new(), angles: Vec::new() };
     for body in 0..bodies {
         let [a, b, c] = if body == 0 { [1, 0, 1] } else { TRIPLES[random.random_range(0..TRIPLES.len())] };
@@ -140,7 +146,7 @@ fn answer(text: &str) -> LinkageAnswer {
 
 #[test]
 fn planted_assemblies_of_large_structures_are_found() {
-    for (count, seeds) in [(6, 4), (7, 2)] {
+    for (count, seeds) in [(6, 3), (7, 1)] {
         let (joints, bodies) = ring(count);
         for seed in 0..seeds {
             let planted = planted(&joints, bodies, 100 + seed);
@@ -176,9 +182,9 @@ fn assemblies_close_together_are_told_apart() {
     let (mut few, mut many) = (Rational::from((1, 100)), Rational::from(4));
     let least = count(&few);
     assert!(least < count(&many));
-    for _ in 0..50 {
+    for _ in 0..36 {
         let middle = Rational::from(&few + &many) / 2;
-        // Too close to the limit, both may be undecided.
+        // Within 1e-10 of the limit, which is less than what is tried beside it.
         if count(&middle) > least {
             many = middle;
         } else {

@@ -8,8 +8,8 @@ use crate::algebra::elementary::sin_cos;
 pub const ROUNDING: f64 = 1e-13;
 /// Most rows and most angles for which [`ROUNDING`] is a bound.
 pub const MOST_ROWS: usize = 64;
-/// Arcs above this width, just below half a turn, are treated as whole circles.
-const HALF_TURN: f64 = 3.14;
+/// Arcs above this width, below half a turn by more than rounding, are treated as whole circles.
+const HALF_TURN: f64 = 3.125;
 
 /// All angles between two floating-point numbers, in radians.
 #[derive(Clone, Copy, Debug)]
