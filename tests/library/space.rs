@@ -460,7 +460,7 @@ given = { leg1 = { distance = "sqrt(13)" }, leg2 = { distance = "sqrt(15)" }, le
     assert_eq!(answer.verdict.status, Status::Complete, "{}", answer.verdict.reason);
     assert_eq!((answer.verdict.complex, answer.modes.len(), answer.verdict.real), (78, 78, 28));
     for (from, to, message) in [
-        ("axis = [[0, 1, -1], [0, 1, -1]]", "axis = [0, 1, -1]", "found 3"),
+        ("axis = [[0, 1, -1], [0, 1, -1]]", "axis = [0, 1, -1]", "found a list of 3 as `axis`"),
         ("axis = [[0, 1, -1], [0, 1, -1]]", "length = 3", "length"),
         ("leg1 = { distance = \"sqrt(13)\" }", "leg1 = { tan_half = 1 }", "expected"),
     ] {

@@ -95,7 +95,7 @@ mod tests {
 
     /// Grows one pose to all of them, and compares the number, or writes the file with `LOOPROOT_BLESS=1`.
     #[test]
-    #[ignore = "takes a minute: cargo test --release --lib -- --ignored universal"]
+    #[ignore = "takes some seconds: cargo test --release --lib -- --ignored universal"]
     #[expect(clippy::cast_possible_truncation, reason = "numbers of the file have 24 bits")]
     fn monodromy_finds_the_start() {
         let random = &mut ChaCha8Rng::seed_from_u64(1996);
