@@ -200,7 +200,10 @@ fn rings_of_bonds_are_read() {
     let written = read(&ring(&"{ length = 1, angle = \"110 deg\" },\n".repeat(6))).unwrap();
     let Geometry::Dh(joints) = &written.chain().unwrap().geometry else { panic!("DH joints") };
     let (cosine, sine) = joints[0].alpha.cos_sin_f64();
-    assert!((cosine - 70_f64.to_radians().cos()).abs() < 1e-16 && (sine - 70_f64.to_radians().sin()).abs() < 1e-16);
+    assert!(
+        (cosine - 70_f64.to_radians().cos()).abs() < f64::EPSILON
+            && (sine - 70_f64.to_radians().sin()).abs() < f64::EPSILON
+    );
     let wrong = |from: &str, to: &str| complaint(&ring(&bond.repeat(6).replacen(from, to, 1)));
     assert!(wrong("length = 2", "length = 0").contains("test.toml:5: found a bond whose length is not positive"));
     assert!(
