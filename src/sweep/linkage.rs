@@ -119,22 +119,35 @@ pub fn sweep_linkage(
     range: Range,
     tick: impl Fn() + Sync,
 ) -> Result<LinkageSweep> {
-    let is_other = |one: &&Given| !matches!(one, Given::Turn { joint: own, .. } | Given::Shift { joint: own, .. } if *own == joint);
-    let held: Vec<Given> = given.iter().filter(is_other).cloned().collect();
+    let held = held_beside(given, joint);
     let proof = Proof::of(linkage, &held, joint);
     let points = linkage.bodies.iter().flat_map(|body| &body.points);
     let size = points.map(|(_, at)| at.re.to_f64().hypot(at.im.to_f64())).fold(1e-9, f64::max);
     let run = Run { linkage, joint, held, size, proof };
     let turn = !linkage.joints[joint].is_prismatic();
     let is_full_turn = turn && ((range.to - range.from).abs() - TAU).abs() < 1e-12;
-    let is_held = |one: &Given| matches!(one, Given::Turn { within: Some(_), .. });
-    let is_rounded = match accuracy {
-        Accuracy::Exact => false,
-        Accuracy::Enclosed => run.held.iter().any(is_held),
-        Accuracy::Rounded => true,
-    };
     let mut sweep = follow(&run, joint, range, is_full_turn, tick)?;
-    sweep.verdict.proof = sweep.verdict.proof.of_rounded(is_rounded);
-    sweep.complex_limits = if is_rounded { None } else { complex_limits(linkage, &run.held, joint) };
+    sweep.verdict.proof = sweep.verdict.proof.of_rounded(is_rounded(&run.held, accuracy));
     Ok(sweep)
+}
+
+/// Counts the complex limit positions of a sweep, which may take longer than the sweep.
+pub fn count_limits(sweep: &mut LinkageSweep, linkage: &Linkage, (given, accuracy): (&[Given], Accuracy)) {
+    let held = held_beside(given, sweep.joint);
+    sweep.complex_limits = if is_rounded(&held, accuracy) { None } else { complex_limits(linkage, &held, sweep.joint) };
+}
+
+/// The values that are held while a joint runs.
+fn held_beside(given: &[Given], joint: usize) -> Vec<Given> {
+    let is_other = |one: &&Given| !matches!(one, Given::Turn { joint: own, .. } | Given::Shift { joint: own, .. } if *own == joint);
+    given.iter().filter(is_other).cloned().collect()
+}
+
+/// Whether numbers of the file or of the held values are rounded.
+fn is_rounded(held: &[Given], accuracy: Accuracy) -> bool {
+    match accuracy {
+        Accuracy::Exact => false,
+        Accuracy::Enclosed => held.iter().any(|one| matches!(one, Given::Turn { within: Some(_), .. })),
+        Accuracy::Rounded => true,
+    }
 }

@@ -25,7 +25,7 @@ pub use branch::{Branch, End, Limit, Row};
 pub use cells::{Cell, CellMap, Cells, CellsVerdict, Column, Label, MapWanted, Zero, cell_map, cells, is_angle};
 pub use derivation::derive_any;
 pub use assemblies::{AssemblyBranch, AssemblyLimit, AssemblyRow, AssemblySample, AssemblySweep};
-pub use linkage::{LinkageSweep, sweep_linkage};
+pub use linkage::{LinkageSweep, count_limits, sweep_linkage};
 pub use platform::{PlatformSweep, sweep_platform};
 pub use sample::{Sample, case};
 pub use sphere::{SphereSweep, place as sphere_place, sweep_sphere};

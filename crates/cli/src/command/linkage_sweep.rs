@@ -12,7 +12,7 @@ use looproot::internal::kinematics::linkage::Given;
 use looproot::internal::report::axodes;
 use looproot::internal::report::linkage_sweep::{self as report, Asked, Traced};
 use looproot::internal::report::ratio::Ratio;
-use looproot::internal::sweep::sweep_linkage;
+use looproot::internal::sweep::{count_limits, sweep_linkage};
 use looproot::internal::view::drawable;
 use std::io::Write;
 
@@ -41,7 +41,11 @@ pub fn run(
     let follower = options.ratio.as_ref().map(|name| joint_named(file, "--ratio", name)).transpose()?;
     let pool = pool(options.threads)?;
     let found = pool.install(|| sweep_linkage(&file.linkage, file.given(case), joint, range, || ()));
-    let found = found.map_err(|error| error.at(&options.mechanism, case.line))?;
+    let mut found = found.map_err(|error| error.at(&options.mechanism, case.line))?;
+    // Pictures, whose documents have a scene, have no use for the number.
+    if options.json && !options.scene {
+        count_limits(&mut found, &file.linkage, file.given(case));
+    }
     let asked = Asked { file, traced: traced.as_ref() };
     let ratio = follower.map(|follower| Ratio::of_plane(file, &found, follower));
     let mut output = open()?;
