@@ -16,14 +16,17 @@ use crate::error::{Error, Result};
 use crate::kinematics::platform::{Platform, pose_of};
 use crate::kinematics::platform_limits::{Part, PlatformLimits, listed};
 use crate::kinematics::velocity::velocity;
-use crate::verdict::{PlatformKnowledge, Status, platform_verdict};
+use crate::verdict::{Code, PlatformKnowledge, Status, platform_verdict};
 use exact::{ExactSide, Search};
 use rug::Rational;
 use std::time::Instant;
 
 /// A platform, prepared.
 pub(super) struct PreparedPlatform {
+    /// The points, rationals in the place of irrational coordinates.
     exact: Platform<Rational>,
+    /// Whether some coordinate is irrational.
+    is_rounded: bool,
     distances: Distances,
     /// A bound on the number of poses, whatever the legs are, and why.
     incidence: Option<(usize, &'static str)>,
@@ -89,7 +92,8 @@ impl PreparedPlatform {
         let solver = PlatformSolver::prepare_exact(&exact);
         let prepare_us = start.elapsed().as_secs_f64() * 1e6;
         let (distances, incidence) = (Distances::new(&exact), most_poses(&exact));
-        Ok(Self { exact, distances, incidence, solver, limits: limits.clone(), prepare_us })
+        let is_rounded = geometry.base.iter().chain(&geometry.plate).flatten().any(|number| !number.is_exact());
+        Ok(Self { exact, is_rounded, distances, incidence, solver, limits: limits.clone(), prepare_us })
     }
 
     /// Finds all poses with the legs of one case.
@@ -106,7 +110,8 @@ impl PreparedPlatform {
         let short = self.distances.out_of_reach(&squares);
         let mut knowledge = PlatformKnowledge::default();
         let is_asked = complex || short.is_none();
-        if roots == Roots::All && is_asked && !is_settled(assembly) {
+        let is_settled_in_f64 = is_settled(assembly);
+        if roots == Roots::All && is_asked && !is_settled_in_f64 {
             let start = Instant::now();
             let (platform, squares, incidence) = (&self.exact, &squares, self.incidence);
             let side = ExactSide { platform, squares, incidence, complex };
@@ -115,7 +120,11 @@ impl PreparedPlatform {
         }
         knowledge.complex_asked = complex && roots == Roots::All;
         knowledge.no_real_pose = short.is_some();
-        let verdict = platform_verdict(assembly, roots, &knowledge);
+        let mut verdict = platform_verdict(assembly, roots, &knowledge);
+        // Certificates in f64 have the rounding of every coordinate in their radii; whatever else there is speaks of the rationals that
+        // stand for irrational coordinates.
+        let is_theorem = is_settled_in_f64 && verdict.code == Code::GeneralBoundMet;
+        verdict.proof = verdict.proof.of_rounded(self.is_rounded && !is_theorem);
         let outside = self.limits.legs_outside(&squares);
         let modes = assembly.modes.iter().map(|mode| self.full(mode, &outside));
         let is_within = |pose: &[f64]| self.joints_outside(pose).is_empty();

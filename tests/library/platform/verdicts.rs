@@ -2,12 +2,14 @@
 //! them; and on random flat platforms, against the exact polynomial.
 
 use super::cases::{Draw, answer, translation};
+use looproot::internal::assembly::{Assembly, Roots, Workspace};
+use looproot::internal::catalogue::{Format, Options, load_text};
 use looproot::internal::elimination::platform_polynomial::{multiple_platform_polynomial, platform_polynomial};
 use looproot::internal::kinematics::dual_quaternion::Quaternion;
 use looproot::internal::kinematics::motion::Motion;
 use looproot::internal::kinematics::platform::Platform;
-use looproot::internal::mechanism::{FullMode, Solution};
-use looproot::internal::verdict::Status;
+use looproot::internal::mechanism::{FullMode, Mechanism, Solution};
+use looproot::internal::verdict::{Code, Proof, Status};
 use looproot_algebra::real_roots::RealRoot;
 use looproot_algebra::univariate::Univariate;
 use rug::Rational;
@@ -297,4 +299,36 @@ fn verdicts_on_random_platforms_agree_with_their_exact_polynomials() {
         }
     }
     println!("{proved} of {finite} finite ones proved");
+}
+
+/// The rationals that stand for irrational coordinates fulfil equations that the coordinates need not.
+#[test]
+fn irrational_coordinates_are_rounded_data_unless_all_40_poses_are_certified() {
+    let hexapod = |scale: &str, first: &str| {
+        let base = [[6, 1, 0], [1, 6, 0], [0, 6, 1], [0, 1, 6], [1, 0, 6], [6, 0, 1]];
+        let row = |p: [i32; 3]| format!("[{}]", p.map(|x| format!("\"{x}*{scale}\"")).join(", "));
+        let mut rows = base.map(row);
+        if !first.is_empty() {
+            rows[0] = first.to_owned();
+        }
+        format!(
+            "[mechanism]\nkind = \"platform\"\nbase = [{}]\n\
+             plate = [[2, 3, 0], [0, 3, 2], [0, 2, 3], [2, 0, 3], [3, 0, 2], [3, 2, 0]]\nlegs = [11, 11, 12, 11, 12, 12]\n",
+            rows.join(", ")
+        )
+    };
+    let verdict = |text: &str| {
+        let entry = load_text(text, "test.toml", Format::Toml, &Options::default()).unwrap();
+        let mechanism = Mechanism::prepare(&entry).unwrap();
+        mechanism
+            .solve(&entry.cases[0], Roots::All, &mut Workspace::default(), &mut Assembly::default())
+            .unwrap()
+            .verdict
+    };
+    let rational = verdict(&hexapod("1", ""));
+    assert_eq!((rational.code, rational.proof), (Code::GeometryBoundMet, Proof::Proved));
+    let scaled = verdict(&hexapod("sqrt(2)", ""));
+    assert_eq!((scaled.complex, scaled.proof), (28, Proof::RoundedData), "{}", scaled.reason);
+    let general = verdict(&hexapod("sqrt(2)", "[\"6*sqrt(3)\", \"sqrt(2)\", \"sqrt(5)\"]"));
+    assert_eq!((general.complex, general.code, general.proof), (40, Code::GeneralBoundMet, Proof::Proved));
 }
