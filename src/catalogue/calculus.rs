@@ -74,9 +74,9 @@ impl CalculusFile {
 }
 
 /// The keys of the lists in questions.
-const PARTS: [&str; 14] = [
+const PARTS: [&str; 15] = [
     "element", "rotation", "pair", "screw", "point", "line", "complex", "plane", "force", "couple", "shaft", "gear", "relation",
-    "wheel",
+    "wheel", "interval",
 ];
 
 /// Reads a file of the calculus.
@@ -134,6 +134,14 @@ pub(super) fn parts<'n>(
     let node = scope.need(table, key)?;
     let what = format!("[[{key}]]");
     scope.list(node, key)?.iter().map(|item| Ok((scope.table(item, &what, allowed)?, item))).collect()
+}
+
+/// Checks that a file has no lists, for a question that needs none.
+pub(super) fn none(scope: &Scope<'_>, table: &Table<'_>, find: &str) -> Result<()> {
+    match PARTS.into_iter().find_map(|key| Some((key, table.get(key)?))) {
+        None => Ok(()),
+        Some((key, node)) => Err(scope.fail(node.line, format!("found [[{key}]], expected none for `find = \"{find}\"`"))),
+    }
 }
 
 /// Checks that a list has exactly this many items.

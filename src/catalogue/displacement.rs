@@ -2,9 +2,11 @@
 
 use super::calculus::{counted, direction, found, line_of, parts, point};
 use super::lines::pluecker;
+use super::navigation::{self, Navigation};
 use super::node::Node;
 use super::planes::{MovingPoint, moving, places, planes};
 use super::scope::{Scope, Table};
+use super::tile::{self, Tile};
 use crate::algebra::number::{HalfTangent, Quantity};
 use crate::algebra::text::{Expression, Names};
 use crate::error::{Error, Result};
@@ -47,6 +49,10 @@ pub enum Displacement {
     Velocities(Box<[MovingPoint; 3]>),
     /// The frame of a point that moves on a surface.
     Surface(Box<OnSurface>),
+    /// Orientation, velocity and place of a body from the measurements of its instruments.
+    Navigation(Box<Navigation>),
+    /// Whether the copies of a polygon tile the plane.
+    Tile(Box<Tile>),
 }
 
 /// A point that moves on a surface.
@@ -96,6 +102,8 @@ impl Displacement {
             Self::Midpoints(..) => "midpoints",
             Self::Velocities(_) => "velocities",
             Self::Surface(_) => "surface",
+            Self::Navigation(_) => "navigation",
+            Self::Tile(_) => "tile",
         }
     }
 }
@@ -116,8 +124,13 @@ pub(super) fn displacement(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displ
         "midpoints",
         "velocities",
         "surface",
+        "navigation",
+        "tile",
     ];
-    let (find, mechanism, line) = found(scope, table, &words, &["axes", "through", "share", "coordinates", "at", "rate", "second_rate"])?;
+    let own = ["axes", "through", "share", "coordinates", "at", "rate", "second_rate"];
+    let keys = [&own, navigation::KEYS.as_slice(), tile::KEYS.as_slice()].concat();
+    let (find, mechanism, line) = found(scope, table, &words, &keys)?;
+    let further = navigation::KEYS.map(|key| (key, "navigation")).into_iter().chain(tile::KEYS.map(|key| (key, "tile")));
     let owners = [
         ("axes", "three-rotations"),
         ("through", "line"),
@@ -127,7 +140,7 @@ pub(super) fn displacement(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displ
         ("rate", "surface"),
         ("second_rate", "surface"),
     ];
-    for (key, of) in owners {
+    for (key, of) in owners.into_iter().chain(further) {
         if let (Some(node), false) = (mechanism.get(key), find == of) {
             return Err(scope
                 .fail(node.line, format!("found `{key}` with `find = \"{find}\"`, expected it with \"{of}\" only")));
@@ -183,6 +196,8 @@ pub(super) fn displacement(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displ
             Ok(Displacement::Midpoints(Box::new(screw), points))
         }
         "surface" => on_surface(scope, &mechanism),
+        "navigation" => Ok(Displacement::Navigation(Box::new(navigation::navigation(scope, table, &mechanism)?))),
+        "tile" => Ok(Displacement::Tile(Box::new(tile::tile(scope, table, &mechanism)?))),
         "velocities" => Ok(Displacement::Velocities(Box::new(moving(scope, table)?))),
         _ => {
             let given = parts(scope, table, "line", &super::lines::LINE, &[])?;

@@ -20,6 +20,7 @@ pub mod masses;
 mod motion;
 mod mjcf;
 mod mjcf_orientation;
+pub mod navigation;
 mod node;
 mod options;
 pub mod planes;
@@ -34,10 +35,12 @@ mod scope;
 mod snap;
 mod source;
 pub mod space;
+mod space_configuration;
 pub mod sphere;
 mod srdf;
 mod synthesis;
 mod text;
+pub mod tile;
 mod urdf;
 
 pub use calculus::CalculusFile;
@@ -51,6 +54,7 @@ pub use library::{
 pub(crate) use linkage::root;
 pub use linkage::{LinkageCase, LinkageClaim, LinkageClaims, LinkageFile, TraceClaim};
 pub use linkage_configuration::LinkageConfiguration;
+pub use space_configuration::SpaceConfiguration;
 pub use motion::MotionFile;
 pub use options::{Chains, Options};
 pub use robots::robot_names;

@@ -6,6 +6,7 @@ use super::job::digits;
 use super::linkage::root;
 use super::node::{Field, Node, Value};
 use super::scope::{Scope, Table, nearest};
+use super::space_configuration::{SpaceConfiguration, configuration};
 use super::sphere::{direction, fields, references, turned};
 use crate::algebra::number::{Angle, Number, Quantity, Reading};
 use crate::error::{Error, Result};
@@ -29,6 +30,8 @@ pub struct SpaceFile {
     pub cases: Vec<SpaceCase>,
     /// Whether every number of bodies and joints is exact.
     pub exact: bool,
+    /// Where the bodies stand, for the mobility.
+    pub configuration: Option<SpaceConfiguration>,
     /// The interpretation of numbers in the file.
     pub reading: Reading,
 }
@@ -79,8 +82,8 @@ pub struct SpaceClaim {
 
 /// Reads a file whose `space` is space.
 pub(super) fn space(scope: &mut Scope<'_>, top: &Node, name: &str) -> Result<SpaceFile> {
-    let heading = heading_with(scope, top, name, &["input", "solution"])?;
-    let keys = ["title", "source", "notes", "units", "mechanism", "expected", "input", "solution"];
+    let heading = heading_with(scope, top, name, &["input", "solution", "configuration"])?;
+    let keys = ["title", "source", "notes", "units", "mechanism", "configuration", "expected", "input", "solution"];
     let table = scope.table(top, "the file", &keys)?;
     let node = scope.need(&table, "mechanism")?;
     let keys = ["kind", "space", "ground", "joints", "bodies"];
@@ -111,7 +114,10 @@ pub(super) fn space(scope: &mut Scope<'_>, top: &Node, name: &str) -> Result<Spa
         }
         first.expected = top;
     }
-    Ok(SpaceFile { heading, linkage, cases, exact, reading: scope.reading.clone() })
+    let names: Vec<&str> = linkage.bodies.iter().map(|body| body.name.as_str()).collect();
+    let configuration = table.get("configuration").map(|node| configuration(scope, node, &names, linkage.ground, false));
+    let configuration = configuration.transpose()?;
+    Ok(SpaceFile { heading, linkage, cases, exact, configuration, reading: scope.reading.clone() })
 }
 
 fn bodies(scope: &Scope<'_>, node: &Node) -> Result<Vec<SpaceBody>> {

@@ -5,6 +5,7 @@ use super::job::digits;
 use super::linkage::root;
 use super::node::{Field, Node, Value};
 use super::scope::{Scope, Table, nearest};
+use super::space_configuration::{SpaceConfiguration, configuration};
 use crate::algebra::number::{Angle, Quantity, Reading};
 use crate::algebra::ring::exact_cos_sin;
 use crate::error::Result;
@@ -31,6 +32,8 @@ pub struct SphereFile {
     pub traces: Vec<SphereTrace>,
     /// Whether every direction is exact.
     pub exact: bool,
+    /// Where the bodies stand, for the mobility.
+    pub configuration: Option<SpaceConfiguration>,
     /// The interpretation of numbers in the file.
     pub reading: Reading,
 }
@@ -89,8 +92,8 @@ pub struct SphereClaim {
 
 /// Reads a file whose `space` is the sphere.
 pub(super) fn sphere(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<SphereFile> {
-    let heading = heading_with(scope, root, name, &["input", "solution", "trace"])?;
-    let keys = ["title", "source", "notes", "units", "mechanism", "expected", "input", "solution", "trace"];
+    let heading = heading_with(scope, root, name, &["input", "solution", "trace", "configuration"])?;
+    let keys = ["title", "source", "notes", "units", "mechanism", "configuration", "expected", "input", "solution", "trace"];
     let table = scope.table(root, "the file", &keys)?;
     let node = scope.need(&table, "mechanism")?;
     let keys = ["kind", "space", "ground", "joints", "bodies"];
@@ -129,7 +132,10 @@ pub(super) fn sphere(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<S
         }
         None => Vec::new(),
     };
-    Ok(SphereFile { heading, linkage, cases, traces, exact, reading: scope.reading.clone() })
+    let names: Vec<&str> = linkage.bodies.iter().map(|body| body.name.as_str()).collect();
+    let configuration = table.get("configuration").map(|node| configuration(scope, node, &names, linkage.ground, true));
+    let configuration = configuration.transpose()?;
+    Ok(SphereFile { heading, linkage, cases, traces, exact, configuration, reading: scope.reading.clone() })
 }
 
 fn bodies(scope: &Scope<'_>, node: &Node) -> Result<Vec<SphereBody>> {

@@ -7,11 +7,13 @@ pub mod answer;
 mod calibration;
 mod elements;
 mod line;
+mod navigation;
 mod points;
 mod positions;
 mod resultant;
 mod surface;
 mod three_rotations;
+mod tile;
 mod velocities;
 
 use crate::catalogue::displacement::Displacement;
@@ -38,6 +40,8 @@ pub fn answers(question: &Displacement) -> Result<Vec<Answer>> {
         Displacement::Reflections(planes) => vec![positions::reflections(planes)],
         Displacement::Midpoints(screw, points) => vec![positions::midpoints(screw, points)],
         Displacement::Surface(motion) => vec![surface::answer(motion)],
+        Displacement::Navigation(given) => vec![navigation::answer(given)],
+        Displacement::Tile(given) => vec![tile::answer(given)],
         Displacement::Velocities(points) => vec![velocities::answer(points)],
     })
 }

@@ -228,14 +228,16 @@ impl Linkage {
     /// Returns the document of `looproot mobility --json`.
     ///
     /// # Errors
-    /// For a configuration that does not close, and for linkages on the sphere.
+    /// For a configuration that does not close, and in space and on the sphere without one.
     pub fn mobility(&self) -> Result<Value> {
-        match &self.file {
-            Kind::Plane(file) => Ok(linkage_mobility::json(file, &crate::mobility::planar_mobility(file)?)),
-            Kind::Sphere(_) => {
-                Err(Error::Unsupported("the mobility of linkages on the sphere is not decided yet".to_owned()))
-            }
-            Kind::Space(_) => Err(in_space("mobility")),
+        let any = match &self.file {
+            Kind::Plane(file) => Any::Linkage(file.clone()),
+            Kind::Sphere(file) => Any::Sphere(file.clone()),
+            Kind::Space(file) => Any::Space(file.clone()),
+        };
+        match linkage_mobility::ask(&any, self.title()) {
+            Some(asked) => Ok(linkage_mobility::json(&asked?)),
+            None => Err(in_space("mobility")),
         }
     }
 }

@@ -160,7 +160,7 @@ impl Model {
     }
 }
 
-/// Returns the document of `mobility --json` for a file or an entry of the library, frameworks and planar linkages included.
+/// Returns the document of `mobility --json` for a file or an entry of the library, frameworks and linkages included.
 ///
 /// # Errors
 /// For a file or name that cannot be read, and for a file without a mechanism.
@@ -170,10 +170,10 @@ pub fn mobility(name: &str) -> Result<Value> {
     match load_any(name, &Options { chains: Chains::Any, ..Options::default() })? {
         Any::Entry(entry) => Model::new(*entry).mobility(),
         Any::Framework(file) => Ok(framework::json(&file, &file.mobility(STEPS)?)),
-        Any::Linkage(file) => Ok(linkage_mobility::json(&file, &crate::mobility::planar_mobility(&file)?)),
-        other => {
-            Err(Error::Invalid(other.kind().unexpected("a loop, an arm, a platform, a planar linkage or a framework")))
-        }
+        other => match linkage_mobility::ask(&other, name) {
+            Some(asked) => Ok(linkage_mobility::json(&asked?)),
+            None => Err(Error::Invalid(other.kind().unexpected("a loop, an arm, a platform, a linkage or a framework"))),
+        },
     }
 }
 

@@ -13,6 +13,7 @@ pub mod order;
 mod planar;
 mod rounded;
 mod search;
+mod spatial;
 mod stillness;
 
 pub use crate::exact::{Axis, Conjugates, JointValue, Linkage, Position, Positions, positions};
@@ -22,3 +23,4 @@ pub use decision::mobility;
 pub use planar::{LinkageMobility, planar_mobility};
 pub use order::{Germ, Local};
 pub use search::moves;
+pub use spatial::{Shafts, space_mobility, sphere_mobility};

@@ -54,6 +54,9 @@ pub fn json(asked: &Asked) -> Value {
         object.insert("position".into(), list(&asked.motion.translation));
         object.insert("transform".into(), homogeneous(&asked.motion));
         object.insert("screw".into(), screw(&asked.motion));
+        if let Some(plane) = in_plane(&asked.motion) {
+            object.insert("plane".into(), plane);
+        }
     }
     if asked.dual {
         let show = |d: &Dual<f64>| list(&[d.value, d.epsilon]);
@@ -65,6 +68,27 @@ pub fn json(asked: &Asked) -> Value {
     }
     object.insert("warnings".into(), json!(asked.warnings));
     Value::Object(object)
+}
+
+/// A motion parallel to the plane of x and y in complex numbers: `z -> factor z + shift`, with its pole, the fixed point; null in a
+/// translation.
+fn in_plane(motion: &Motion<f64>) -> Option<Value> {
+    // A few units in the last place of 1.
+    let snap = |x: f64| if x.abs() < 4.0 * f64::EPSILON { 0.0 } else { x };
+    let [[c, _, a], [s, _, b], [_, _, z]] = motion.rotation;
+    let [x, y, height] = motion.translation;
+    if [a, b, 1.0 - z, height].iter().any(|off| snap(*off) != 0.0) {
+        return None;
+    }
+    let (c, s) = (snap(c), snap(s));
+    // shift/(1 - factor)
+    let square = (1.0 - c) * (1.0 - c) + s * s;
+    let pole = if square == 0.0 {
+        Value::Null
+    } else {
+        list(&[(x * (1.0 - c) - y * s) / square, (y * (1.0 - c) + x * s) / square])
+    };
+    Some(json!({ "factor": list(&[c, s]), "shift": list(&[x, y]), "pole": pole }))
 }
 
 /// The rates: the parametrisations over dual numbers that carry the rate of the quaternion, of which the dual parts are shown.
@@ -172,7 +196,7 @@ pub fn text(asked: &Asked) -> String {
         fields.shift_remove(key);
     }
     let warnings = fields.shift_remove("warnings");
-    let nested = ["screw", "dual", "rates"].map(|key| (key, fields.shift_remove(key)));
+    let nested = ["screw", "plane", "dual", "rates"].map(|key| (key, fields.shift_remove(key)));
     write_values(&mut text, &fields);
     for (key, value) in nested {
         if let Some(Value::Object(own)) = value {

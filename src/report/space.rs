@@ -59,7 +59,7 @@ fn asked_json(file: &SpaceFile, given: &[SpaceGiven]) -> Value {
 }
 
 /// The joints that have a value, in the order of the file.
-fn joint_variables(file: &SpaceFile) -> Value {
+pub(super) fn joint_variables(file: &SpaceFile) -> Value {
     let joints = (1..).zip(&file.linkage.joints);
     let variables = joints.filter_map(|(k, joint)| {
         let kind = if joint.is_distance()? { "distance" } else { "angle" };

@@ -92,3 +92,62 @@ fn without_a_configuration_a_four_bar_and_a_tree_are_decided() {
     let (code, out, _) = run("linkage/peaucellier", &["-q"]);
     assert_eq!((code, out.contains("proof: none")), (2, true));
 }
+
+#[test]
+fn a_coupling_of_three_chains_moves_and_turns_both_shafts_alike() {
+    let (code, out, _) = run("linkage/clemens_coupling", &["--json"]);
+    let found: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((code, &found["mobility"], &found["gruebler"]), (0, &1.into(), &Value::from(-1)), "{found}");
+    assert_eq!((&found["first_order"], &found["proof"]), (&1.into(), &"proved".into()));
+    assert_eq!(found["code"], "order-exceeds-bound");
+    assert_eq!(found["shafts"], serde_json::json!([{ "joints": ["S0", "S1"], "ratio": -1 }]));
+    let (code, out, _) = run("linkage/ball_in_track", &["--json"]);
+    let found: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((code, &found["mobility"], &found["gruebler"]), (0, &1.into(), &1.into()), "{found}");
+    assert_eq!(found["shafts"], serde_json::json!([{ "joints": ["S0", "S1"], "ratio": -1 }]));
+}
+
+/// The coupling of three chains with one axis turned, so that one chain is no mirror image of itself.
+#[test]
+fn a_coupling_with_a_crooked_chain_does_not_move() {
+    let file = PathBuf::from(crate::ROOT).join("equations/linkage/clemens_coupling.toml");
+    let text = fs::read_to_string(file).unwrap();
+    let axis = "axis = [\"12/25\", \"-16/25\", \"-3/5\"] },\n    { name = \"S1\"";
+    assert!(text.contains(axis));
+    let (code, found) = document(&written("crooked.toml", &text.replace(axis, "axis = [1, 2, 2] },\n    { name = \"S1\"")));
+    assert_eq!((code, &found["mobility"], &found["proof"]), (3, &0.into(), &"proved".into()), "{found}");
+}
+
+const SPHERE: &str = "[mechanism]\nkind = \"linkage\"\nspace = \"sphere\"\nground = \"f\"\njoints = \"shared points\"\n\
+                      [mechanism.bodies]\nf = { A = [2, 1, 2], D = [3, 0, 0] }\na = { A = [2, 1, 2], B = [1, 2, 2] }\n\
+                      b = { B = [1, 2, 2], C = [0, 3, 0] }\nc = { C = [0, 3, 0], D = [3, 0, 0] }\n";
+
+#[test]
+fn a_four_bar_on_the_sphere_moves() {
+    let path = written("sphere.toml", &format!("{SPHERE}[configuration]\na = {{}}\nb = {{}}\nc = {{}}\n"));
+    let (code, found) = document(&path);
+    assert_eq!((code, &found["mobility"], &found["gruebler"]), (0, &1.into(), &1.into()), "{found}");
+    assert_eq!(found["code"], "regular-configuration");
+    assert_eq!(found["shafts"], Value::Null);
+    let turned = format!("{SPHERE}[configuration]\na = {{ quaternion = [0, 0, 1, 0] }}\nb = {{}}\nc = {{}}\n");
+    let (code, _, error) = run(written("sphere_open.toml", &turned).to_str().unwrap(), &[]);
+    assert_eq!((code, error.contains("leaves the joint")), (1, true), "{error}");
+    let (code, _, error) = run(written("sphere_bare.toml", SPHERE).to_str().unwrap(), &[]);
+    assert_eq!((code, error.contains("without a [configuration]")), (4, true), "{error}");
+}
+
+#[test]
+fn five_rods_and_a_ball_leave_what_their_count_says() {
+    // A plate on three rods and one ball: 6 - 3 - 3 = 0; on two rods and the ball it turns.
+    let head = "[mechanism]\nkind = \"linkage\"\nspace = \"space\"\nground = \"base\"\njoints = [\n\
+                { name = \"O\", type = \"S\", of = [\"base\", \"plate\"] },\n\
+                { name = \"one\", type = \"SS\", of = [\"base\", \"plate\"], at = [\"A\", \"E\"], length = 1 },\n\
+                { name = \"two\", type = \"SS\", of = [\"base\", \"plate\"], at = [\"B\", \"F\"], length = 2 },\n";
+    let third = "{ name = \"three\", type = \"SS\", of = [\"base\", \"plate\"], at = [\"C\", \"G\"], length = 3 },\n";
+    let rest = "]\n[mechanism.bodies]\nbase = { O = [0, 0, 0], A = [1, 0, 1], B = [0, 2, 2], C = [3, 0, 3] }\n\
+                plate = { O = [0, 0, 0], E = [1, 0, 0], F = [2, 2, 2], G = [0, 0, 3] }\n[configuration]\nplate = {}\n";
+    let (code, found) = document(&written("two_rods.toml", &format!("{head}{rest}")));
+    assert_eq!((code, &found["mobility"], &found["gruebler"]), (0, &1.into(), &1.into()), "{found}");
+    let (code, found) = document(&written("three_rods.toml", &format!("{head}{third}{rest}")));
+    assert_eq!((code, &found["mobility"], &found["gruebler"]), (3, &0.into(), &0.into()), "{found}");
+}

@@ -13,10 +13,12 @@ mod linkage_mobility;
 mod mobility;
 mod mobility_verb;
 mod motion;
+mod navigation;
 mod poly;
 mod robots;
 mod scene;
 mod sweep;
+mod tile;
 mod view;
 
 /// The folder of the project: the program is a crate below it.

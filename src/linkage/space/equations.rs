@@ -9,6 +9,7 @@
 //! The solutions of the system are the assemblies, one for one: real assemblies have real unknowns.
 
 use super::clusters::{Cluster, clusters, freedoms, open_joints};
+use super::conditions::conditions;
 use crate::algebra::groebner::{Equation, MOST_VARIABLES};
 use crate::algebra::ring::Ring;
 use crate::error::{Error, Result};
@@ -289,46 +290,18 @@ impl System {
         if let Some(rod) = of.iter().copied().find(|k| self.clusters[*k].is_rod) {
             return self.close_rod(linkage, given, joint, of, rod);
         }
-        let [one, two] = [self.end(linkage, joint, 0, of[0])?, self.end(linkage, joint, 1, of[1])?];
-        let apart = difference(&one, &two);
         let own = &linkage.joints[joint];
-        let direction = |side: usize, v: &Vector<Rational>| -> Result<Vector<Equation>> {
+        let place = |side: usize| -> Result<Motion<Equation>> {
             let place = self.places[of[side]].as_ref().ok_or_else(unplaced)?;
-            Ok(place.rotate(&constant(&self.own(own.of[side]).rotate(v))))
+            Ok(place.then_after(&over(&self.own(own.of[side]))))
         };
-        let mut list: Vec<Equation> = Vec::new();
-        match &own.pair {
-            SpacePair::Spherical => list.extend(apart),
-            SpacePair::Universal([a, b]) => {
-                list.extend(apart);
-                list.push(dot(&direction(0, a)?, &direction(1, b)?));
-            }
-            SpacePair::Rod(square) => list.push(dot(&apart, &apart).sub(&number(square))),
-            SpacePair::Leg | SpacePair::UniversalLeg(_) => {
-                if let SpacePair::UniversalLeg([a, b]) = &own.pair {
-                    list.push(dot(&cross(&direction(0, a)?, &direction(1, b)?), &apart));
-                }
-                let known = given.iter().find(|one| one.joint == Some(joint)).map(|one| &one.known);
-                if let Some(Known::Square(square)) = known {
-                    list.push(dot(&apart, &apart).sub(&number(square)));
-                }
-            }
-            SpacePair::Parallelogram([a, b], square) => {
-                list.extend(difference(&direction(0, a)?, &direction(1, b)?));
-                list.push(dot(&apart, &apart).sub(&number(square)));
-            }
-            SpacePair::Revolute(axis) => {
-                list.extend(apart);
-                list.extend(difference(&direction(0, &axis.sphere.at[0])?, &direction(1, &axis.sphere.at[1])?));
-            }
-            SpacePair::Prismatic(axis) => {
-                let along = direction(0, &axis.sphere.at[0])?;
-                list.extend(cross(&along, &apart));
-                for k in 0..3 {
-                    let unit = std::array::from_fn(|i| Rational::from(u8::from(i == k)));
-                    list.extend(difference(&direction(0, &axis.home.rotate(&unit))?, &direction(1, &unit)?));
-                }
-            }
+        let mut list = conditions(own, [&place(0)?, &place(1)?], number);
+        if let (SpacePair::Leg | SpacePair::UniversalLeg(_), Some(one)) =
+            (&own.pair, given.iter().find(|one| one.joint == Some(joint)))
+            && let Known::Square(square) = &one.known
+        {
+            let apart = difference(&self.end(linkage, joint, 0, of[0])?, &self.end(linkage, joint, 1, of[1])?);
+            list.push(dot(&apart, &apart).sub(&number(square)));
         }
         self.equations.extend(list);
         Ok(())

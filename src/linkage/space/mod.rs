@@ -5,10 +5,12 @@
 
 mod answer;
 mod clusters;
+mod conditions;
 mod equations;
 mod rates;
 mod universal;
 mod values;
 
 pub use answer::{Coordinate, SpaceAnswer, SpaceGroup, SpaceMode, solve};
+pub use conditions::conditions;
 pub use rates::{SpaceRates, rates};

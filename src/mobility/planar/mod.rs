@@ -9,17 +9,19 @@ use crate::kinematics::linkage::{Accuracy, Gaussian, Given, Linkage, Pair};
 use crate::linkage::answer::solve;
 use crate::linkage::groups::{Groups, groups};
 use crate::linkage::assembly::{Link, glued};
+use super::spatial::Shafts;
 use crate::verdict::{Code, Proof};
 use rug::Rational;
+pub(in crate::internal::mobility) use series::Reduced;
 use series::Local;
 use system::System;
 
-/// What is known of the mobility of a planar linkage.
+/// What is known of the mobility of a linkage.
 #[derive(Clone, Debug)]
 pub struct LinkageMobility {
     /// The dimension of the real assemblies near the configuration, or of those found; `None` where it is not decided.
     pub mobility: Option<usize>,
-    /// `3 (bodies - 1) - 2 joints`, one more for every pair of gears less.
+    /// `3 (bodies - 1) - 2 joints`, one more for every pair of gears less; in space `6 (bodies - 1)` less the conditions of all joints.
     pub gruebler: i64,
     /// Variables less the rank of the closure equations at the configuration.
     pub first_order: Option<usize>,
@@ -33,6 +35,8 @@ pub struct LinkageMobility {
     pub code: Code,
     /// Why, in words.
     pub reason: String,
+    /// In space and on the sphere: shafts that turn alike.
+    pub shafts: Vec<Shafts>,
 }
 
 impl LinkageMobility {
@@ -83,6 +87,7 @@ fn at(linkage: &Linkage, configuration: &LinkageConfiguration, exact: bool) -> R
         proof,
         code,
         reason,
+        shafts: Vec::new(),
     };
     if !system.is_closed() {
         let reason = format!(
@@ -169,6 +174,7 @@ fn somewhere(linkage: &Linkage, exact: bool) -> Result<LinkageMobility> {
         proof,
         code,
         reason,
+        shafts: Vec::new(),
     };
     if let Some(group) = counted.list.iter().find(|group| group.count < 0) {
         let names: Vec<&str> =

@@ -39,15 +39,15 @@ pub(super) struct Found {
 
 /// A matrix in reduced echelon form.
 #[derive(Clone, Debug)]
-pub(super) struct Reduced {
-    pub(super) rows: Vec<Vec<Rational>>,
+pub(in crate::internal::mobility) struct Reduced {
+    pub(in crate::internal::mobility) rows: Vec<Vec<Rational>>,
     /// The column of the leading one of every row that is not zero.
-    pub(super) pivots: Vec<usize>,
+    pub(in crate::internal::mobility) pivots: Vec<usize>,
 }
 
 impl Reduced {
     /// Reduces by the first so many columns.
-    pub(super) fn of(matrix: &[Vec<Rational>], columns: usize) -> Self {
+    pub(in crate::internal::mobility) fn of(matrix: &[Vec<Rational>], columns: usize) -> Self {
         let mut rows = matrix.to_vec();
         let mut pivots = Vec::new();
         for column in 0..columns {

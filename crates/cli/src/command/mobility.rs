@@ -5,9 +5,9 @@ use super::certificates::Certificates;
 use super::exit::{Exit, Fault, unexpected};
 use super::output::Output;
 use super::seed::plant;
-use looproot::internal::catalogue::{Any, Chains, FrameworkFile, LinkageFile, Options, load_any};
+use looproot::internal::catalogue::{Any, Chains, FrameworkFile, Options, load_any};
 use looproot::internal::error::Error;
-use looproot::internal::mobility::{Mobility, mobility, planar_mobility};
+use looproot::internal::mobility::{Mobility, mobility};
 use looproot::internal::report::document::complete;
 use looproot::internal::report::framework as report;
 use looproot::internal::report::linkage_mobility;
@@ -24,17 +24,18 @@ pub fn run(options: &MobilityOptions) -> Result<Exit, Fault> {
             return Err(Error::Invalid(message.to_owned()).into());
         }
         Any::Framework(file) => return of_framework(options, &file),
-        Any::Linkage(_) if options.certificate.is_some() => {
+        Any::Linkage(_) | Any::Sphere(_) | Any::Space(_) if options.certificate.is_some() => {
             let message = "found --certificate with a linkage, expected a loop: linkages have no certificate yet";
             return Err(Error::Invalid(message.to_owned()).into());
         }
-        Any::Linkage(file) => return of_linkage(options, &file),
         other => {
-            return Err(unexpected(
-                &options.mechanism,
-                other.kind(),
-                "a loop, an arm, a platform, a planar linkage or a framework",
-            ));
+            return match linkage_mobility::ask(&other, &options.mechanism) {
+                Some(asked) => of_linkage(options, &asked?),
+                None => {
+                    let expected = "a loop, an arm, a platform, a linkage or a framework";
+                    Err(unexpected(&options.mechanism, other.kind(), expected))
+                }
+            };
         }
     };
     let answer = mobility(&entry)?;
@@ -78,16 +79,15 @@ fn of_framework(options: &MobilityOptions, file: &FrameworkFile) -> Result<Exit,
     })
 }
 
-/// Decides whether a planar linkage moves.
-fn of_linkage(options: &MobilityOptions, file: &LinkageFile) -> Result<Exit, Fault> {
-    let line = file.configuration.as_ref().map_or(1, |configuration| configuration.line);
-    let answer = planar_mobility(file).map_err(|error| error.at(&options.mechanism, line))?;
+/// Writes whether a linkage moves.
+fn of_linkage(options: &MobilityOptions, asked: &linkage_mobility::Asked) -> Result<Exit, Fault> {
+    let answer = &asked.answer;
     let written = if options.json {
-        format!("{:#}\n", linkage_mobility::json(file, &answer))
+        format!("{:#}\n", linkage_mobility::json(asked))
     } else if options.quiet {
-        linkage_mobility::verdict(&answer) + "\n"
+        linkage_mobility::verdict(answer) + "\n"
     } else {
-        linkage_mobility::text(file, &answer)
+        linkage_mobility::text(asked)
     };
     let mut output = Output::open(&options.output, &options.mechanism)?;
     output.writer.write_all(written.as_bytes())?;
