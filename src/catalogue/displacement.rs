@@ -152,16 +152,7 @@ pub(super) fn displacement(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displ
         "calibration" => calibration(scope, table),
         "resultant" => resultant(scope, table),
         "points" => points(scope, table),
-        "circle" => {
-            let points = counted(scope, line_of(table, "point"), places(scope, table, &[])?, "point", 3)?;
-            let points: [Vector<Rational>; 3] =
-                points.try_into().map_err(|_| scope.fail(line, "found another number of points, expected three"))?;
-            if Plane::through(&points).normal.iter().all(|c| *c == 0) {
-                let message = "found points in a line, expected three on a circle";
-                return Err(scope.fail(line_of(table, "point"), message));
-            }
-            Ok(Displacement::Circle(points))
-        }
+        "circle" => circle(scope, table, line),
         "between" => {
             let found = rotations(scope, table)?;
             let found = counted(scope, line_of(table, "rotation"), found, "rotation", 2)?;
@@ -217,6 +208,18 @@ pub(super) fn displacement(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displ
             Ok(Displacement::Line([first, second], through))
         }
     }
+}
+
+/// Reads three positions of a point on a circle.
+fn circle(scope: &Scope<'_>, table: &Table<'_>, line: usize) -> Result<Displacement> {
+    let points = counted(scope, line_of(table, "point"), places(scope, table, &[])?, "point", 3)?;
+    let points: [Vector<Rational>; 3] =
+        points.try_into().map_err(|_| scope.fail(line, "found another number of points, expected three"))?;
+    if Plane::through(&points).normal.iter().all(|c| *c == 0) {
+        let message = "found points in a line, expected three on a circle";
+        return Err(scope.fail(line_of(table, "point"), message));
+    }
+    Ok(Displacement::Circle(points))
 }
 
 /// Reads coordinates in u and v, and the motion of u and v.

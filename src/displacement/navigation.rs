@@ -56,7 +56,7 @@ impl State {
             HalfTangent::Finite(t) => {
                 let square = Rational::from(t.square_ref());
                 let whole = Rational::from(&square + 1);
-                (Enclosure::of(&(Rational::from(1 - square) / &whole)), Enclosure::of(&(Rational::from(t * 2) / whole)))
+                (Enclosure::of(&((1 - square) / &whole)), Enclosure::of(&(Rational::from(t * 2) / whole)))
             }
         };
         let duration = Enclosure::of(&interval.duration);

@@ -114,7 +114,8 @@ fn a_coupling_with_a_crooked_chain_does_not_move() {
     let text = fs::read_to_string(file).unwrap();
     let axis = "axis = [\"12/25\", \"-16/25\", \"-3/5\"] },\n    { name = \"S1\"";
     assert!(text.contains(axis));
-    let (code, found) = document(&written("crooked.toml", &text.replace(axis, "axis = [1, 2, 2] },\n    { name = \"S1\"")));
+    let (code, found) =
+        document(&written("crooked.toml", &text.replace(axis, "axis = [1, 2, 2] },\n    { name = \"S1\"")));
     assert_eq!((code, &found["mobility"], &found["proof"]), (3, &0.into(), &"proved".into()), "{found}");
 }
 
@@ -134,6 +135,10 @@ fn a_four_bar_on_the_sphere_moves() {
     assert_eq!((code, error.contains("leaves the joint")), (1, true), "{error}");
     let (code, _, error) = run(written("sphere_bare.toml", SPHERE).to_str().unwrap(), &[]);
     assert_eq!((code, error.contains("without a [configuration]")), (4, true), "{error}");
+    let (code, out, _) = run("linkage/spherical_four_bar", &["-q"]);
+    assert_eq!((code, out.trim()), (0, "mobile: mobility 1 (Gruebler's count 1); proof: proved"));
+    let (code, out, _) = run("linkage/rssr_ssr", &["-q"]);
+    assert_eq!((code, out.trim()), (2, "mobile: mobility 1 (Gruebler's count 1); proof: none"));
 }
 
 #[test]

@@ -56,7 +56,13 @@ fn polygons_that_do_not_tile() {
         ("clockwise", "[[0, 0], [0, 1], [1, 1], [1, 0]]", "[[1, 3], [2, 4]]", "[]", "clockwise"),
         ("crossed", "[[0, 0], [2, 2], [2, 0], [0, 2]]", "[[1, 1], [2, 2], [3, 3], [4, 4]]", "[]", "meet"),
         // A pentagon whose every side goes to itself: three quarters of two turns at its corners.
-        ("pentagon", "[[0, 0], [4, 0], [5, 3], [2, 5], [-1, 3]]", "[[1, 1], [2, 2], [3, 3], [4, 4], [5, 5]]", "[]", "add up to 1.5"),
+        (
+            "pentagon",
+            "[[0, 0], [4, 0], [5, 3], [2, 5], [-1, 3]]",
+            "[[1, 1], [2, 2], [3, 3], [4, 4], [5, 5]]",
+            "[]",
+            "add up to 1.5",
+        ),
     ];
     for (name, corners, pairs, glides, part) in refused {
         let found = solved(&format!("{name}.toml"), corners, pairs, glides);

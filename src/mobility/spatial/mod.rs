@@ -1,4 +1,4 @@
-//! Whether a linkage in space or on the sphere moves at its configuration. The theorems are in docs/mobility.md, section "Linkages in
+//! Whether a linkage in space or on the sphere moves, at its configuration or at an assembly with inputs. The theorems are in docs/mobility.md, section "Linkages in
 //! space and on the sphere".
 
 mod curves;
@@ -7,10 +7,11 @@ mod loops;
 
 use super::planar::LinkageMobility;
 use crate::algebra::number::nearest_f64;
-use crate::catalogue::{SpaceConfiguration, SpaceFile, SphereFile};
+use crate::catalogue::{SpaceFile, SphereFile};
 use crate::error::{Error, Result};
 use crate::kinematics::space::SpacePair;
-use crate::linkage::space::conditions;
+use crate::linkage::space::{self, conditions};
+use crate::linkage::sphere;
 use crate::verdict::{Code, Proof};
 use curves::{Agreement, agree, shafts};
 use freedoms::{Freedom, freedoms};
@@ -33,13 +34,22 @@ pub struct Shafts {
     pub is_opposite: bool,
 }
 
-/// Decides whether a linkage in space moves at its configuration.
+/// Decides whether a linkage in space moves: at its configuration, or without one at an assembly of its first inputs.
 ///
 /// # Errors
-/// Without a configuration, and for one that does not close, with the gap.
+/// For a configuration that does not close, with the gap, and without configuration and inputs.
 pub fn space_mobility(file: &SpaceFile) -> Result<LinkageMobility> {
     let linkage = &file.linkage;
-    let at = given(file.configuration.as_ref())?;
+    let taken: usize = linkage.joints.iter().map(|joint| joint.pair.conditions()).sum();
+    let gruebler = gruebler(6, linkage.bodies.len(), taken);
+    let Some(at) = &file.configuration else {
+        let case = file.cases.first().filter(|case| !case.given.is_empty()).ok_or_else(without)?;
+        let held = case.given.iter().map(|given| if given.joint.is_some() { 1 } else { 6 }).sum();
+        let found = space::solve(linkage, &case.given, file.exact && case.exact)?;
+        let simple = found.modes.iter().any(|mode| mode.real && mode.multiplicity == 1);
+        let proof = found.verdict.proof.is_proved();
+        return Ok(somewhere(gruebler, held, simple && proof, None));
+    };
     let places = |joint: usize| linkage.joints[joint].of.map(|body| &at.places[body]);
     let mut list = Vec::new();
     let mut gap = (0.0, 0);
@@ -55,7 +65,6 @@ pub fn space_mobility(file: &SpaceFile) -> Result<LinkageMobility> {
     }
     let name = |joint: usize| linkage.joints[joint].name.as_str();
     closed(gap, size, name)?;
-    let taken: usize = linkage.joints.iter().map(|joint| joint.pair.conditions()).sum();
     let is_shaft = |joint: usize| {
         matches!(linkage.joints[joint].pair, SpacePair::Revolute(_)) && linkage.joints[joint].of.contains(&linkage.ground)
     };
@@ -73,7 +82,7 @@ pub fn space_mobility(file: &SpaceFile) -> Result<LinkageMobility> {
     };
     let question = Question {
         system: System::of(linkage.bodies.len(), linkage.ground, &list, 6),
-        gruebler: gruebler(6, linkage.bodies.len(), taken),
+        gruebler,
         is_exact: file.exact && at.exact,
         is_closed: gap.0 == 0.0,
         is_shaft: &is_shaft,
@@ -83,13 +92,23 @@ pub fn space_mobility(file: &SpaceFile) -> Result<LinkageMobility> {
     Ok(question.answer())
 }
 
-/// Decides whether a linkage on the sphere moves at its configuration.
+/// Decides whether a linkage on the sphere moves: at its configuration, or without one at an assembly of its first inputs.
 ///
 /// # Errors
-/// Without a configuration, and for one that does not close.
+/// For a configuration that does not close, with the gap, and without configuration and inputs.
 pub fn sphere_mobility(file: &SphereFile) -> Result<LinkageMobility> {
     let linkage = &file.linkage;
-    let at = given(file.configuration.as_ref())?;
+    let gruebler = gruebler(3, linkage.bodies.len(), 2 * linkage.joints.len());
+    let Some(at) = &file.configuration else {
+        let case = file.cases.first().filter(|case| !case.given.is_empty()).ok_or_else(without)?;
+        let held = case.given.iter().map(|given| if given.joint.is_some() { 1 } else { 3 }).sum();
+        let found = sphere::solve(linkage, &case.given, file.exact && case.exact)?;
+        let simple = found.modes.iter().any(|mode| mode.real && mode.multiplicity == 1);
+        let proof = found.verdict.proof.is_proved();
+        // The equations of a single loop are dependent where all its axes lie in one plane, in finitely many assemblies.
+        let ring = (linkage.joints.len() == linkage.bodies.len()).then_some("whose axes all lie in one plane");
+        return Ok(somewhere(gruebler, held, simple && proof, ring));
+    };
     let centre = std::array::from_fn(|_| Rational::new());
     let mut list: Vec<([usize; 2], Vec<Freedom>)> = Vec::new();
     let mut gap = (0.0, 0);
@@ -109,7 +128,7 @@ pub fn sphere_mobility(file: &SphereFile) -> Result<LinkageMobility> {
     let most = |own: &System| (own.used().len() == 4).then_some(2);
     let question = Question {
         system: System::of(linkage.bodies.len(), linkage.ground, &list, 3),
-        gruebler: gruebler(3, linkage.bodies.len(), 2 * linkage.joints.len()),
+        gruebler,
         is_exact: file.exact && at.exact,
         is_closed: gap.0 == 0.0,
         is_shaft: &is_shaft,
@@ -119,11 +138,36 @@ pub fn sphere_mobility(file: &SphereFile) -> Result<LinkageMobility> {
     Ok(question.answer())
 }
 
-fn given(configuration: Option<&SpaceConfiguration>) -> Result<&SpaceConfiguration> {
-    configuration.ok_or_else(|| {
-        let message = "the mobility of a linkage in space or on the sphere without a [configuration]";
-        Error::Unsupported(message.to_owned())
-    })
+fn without() -> Error {
+    Error::Unsupported("the mobility of a linkage in space or on the sphere without a [configuration] and without inputs".to_owned())
+}
+
+/// Says what follows from the assemblies with as many variables held; `ring` names those of a single loop that are not regular.
+fn somewhere(gruebler: i64, held: i64, is_simple: bool, ring: Option<&str>) -> LinkageMobility {
+    let is_regular = is_simple && held == gruebler;
+    let mobility = usize::try_from(held).ok().filter(|_| is_regular);
+    let manifold = format!(
+        "there is a simple real assembly with {held} freedoms held, as many as by count: the assemblies near it form a manifold of dimension \
+         {held}"
+    );
+    let (proof, code, reason) = match (is_regular, ring) {
+        (true, Some(ring)) => {
+            let reason = format!("{manifold}; the equations of a single loop are dependent in assemblies only {ring}, finitely many, so that none has more");
+            (Proof::Proved, Code::RegularConfiguration, reason)
+        }
+        (true, None) => {
+            let reason = format!("{manifold}; that no other assemblies move in more dimensions is not proved");
+            (Proof::None, Code::NotDecided, reason)
+        }
+        _ => {
+            let reason = format!(
+                "with the inputs of the file held, {held} freedoms where the count is {gruebler}, no simple real assembly decides it: such a linkage is \
+                 decided at a [configuration]"
+            );
+            (Proof::None, Code::NotDecided, reason)
+        }
+    };
+    LinkageMobility { mobility, gruebler, first_order: mobility, order: None, branches: 0, proof, code, reason, shafts: Vec::new() }
 }
 
 fn closed<'a>((gap, joint): (f64, usize), size: f64, name: impl Fn(usize) -> &'a str) -> Result<()> {

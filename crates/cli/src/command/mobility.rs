@@ -29,13 +29,11 @@ pub fn run(options: &MobilityOptions) -> Result<Exit, Fault> {
             return Err(Error::Invalid(message.to_owned()).into());
         }
         other => {
-            return match linkage_mobility::ask(&other, &options.mechanism) {
-                Some(asked) => of_linkage(options, &asked?),
-                None => {
-                    let expected = "a loop, an arm, a platform, a linkage or a framework";
-                    Err(unexpected(&options.mechanism, other.kind(), expected))
-                }
+            let Some(asked) = linkage_mobility::ask(&other, &options.mechanism) else {
+                let expected = "a loop, an arm, a platform, a linkage or a framework";
+                return Err(unexpected(&options.mechanism, other.kind(), expected));
             };
+            return of_linkage(options, &asked?);
         }
     };
     let answer = mobility(&entry)?;
