@@ -112,7 +112,7 @@ fn a_coupling_of_three_chains_moves_and_turns_both_shafts_alike() {
 fn a_coupling_with_a_crooked_chain_does_not_move() {
     let file = PathBuf::from(crate::ROOT).join("equations/linkage/clemens_coupling.toml");
     let text = fs::read_to_string(file).unwrap();
-    let axis = "axis = [\"12/25\", \"-16/25\", \"-3/5\"] },\n    { name = \"S1\"";
+    let axis = "axis = [\"12/25\", \"16/25\", \"-3/5\"] },\n    { name = \"S1\"";
     assert!(text.contains(axis));
     let (code, found) =
         document(&written("crooked.toml", &text.replace(axis, "axis = [1, 2, 2] },\n    { name = \"S1\"")));

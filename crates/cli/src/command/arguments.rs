@@ -520,7 +520,7 @@ fn steps(text: &str) -> Result<usize, String> {
 #[derive(Args)]
 #[command(after_help = help::MOBILITY)]
 pub struct MobilityOptions {
-    /// A file of a loop, an arm, a platform, a planar linkage or a framework, the name of a built-in entry, or - for standard input;
+    /// A file of a loop, an arm, a platform, a linkage or a framework, the name of a built-in entry, or - for standard input;
     /// inputs of the file are not looked at
     pub mechanism: String,
     /// Frameworks: how many steps of the motion are followed in f64
