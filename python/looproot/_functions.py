@@ -33,7 +33,7 @@ def load(name: str | os.PathLike[str]) -> Arm | Loop | Platform | Linkage:
 
 
 def mobility(name: str | os.PathLike[str]) -> Document:
-    """Whether a loop, an arm, a platform, a planar linkage or a framework moves, as ``looproot mobility --json`` says it.
+    """Whether a loop, an arm, a platform, a linkage or a framework moves, as ``looproot mobility --json`` says it.
 
     >>> mobility("bennett_a")["mobility"]
     1

@@ -711,7 +711,7 @@ fn a_name_in_two_folders_is_given_with_its_folder() {
 #[test]
 fn a_file_of_the_wrong_kind_is_told_with_its_verb() {
     let entry = "expected an arm, a loop or a platform with numbers";
-    let moving = "expected a loop, an arm, a platform, a planar linkage or a framework";
+    let moving = "expected a loop, an arm, a platform, a linkage or a framework";
     let kinds = [
         ("motion/bennett", "a rational motion", "factor"),
         ("framework/steffen", "a framework", "mobility"),

@@ -147,7 +147,7 @@ fn somewhere(gruebler: i64, held: i64, is_simple: bool, ring: Option<&str>) -> L
     let is_regular = is_simple && held == gruebler;
     let mobility = usize::try_from(held).ok().filter(|_| is_regular);
     let manifold = format!(
-        "there is a simple real assembly with {held} freedoms held, as many as by count: the assemblies near it form a manifold of dimension \
+        "there is a simple real assembly with {held} of its freedoms held, as many as by count: the assemblies near it form a manifold of dimension \
          {held}"
     );
     let (proof, code, reason) = match (is_regular, ring) {
