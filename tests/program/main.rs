@@ -8,6 +8,7 @@ mod conditions_search;
 mod derive;
 mod foreign;
 mod framework;
+mod gearing;
 mod instant;
 mod linkage_mobility;
 mod mobility;
