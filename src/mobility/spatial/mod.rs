@@ -17,7 +17,6 @@ use curves::{Agreement, agree, shafts};
 use freedoms::{Freedom, freedoms};
 use loops::{Solver, System};
 use looproot_calculus::line::pluecker::Line;
-use looproot_calculus::motion::cross;
 use rug::Rational;
 
 /// A configuration that is open by more than this part of the size of the linkage is none.
@@ -116,7 +115,6 @@ pub fn sphere_mobility(file: &SphereFile) -> Result<LinkageMobility> {
         let [u, v] = [0, 1].map(|side| at.places[joint.of[side]].rotate(&joint.at[side]));
         let off = (0..3).map(|i| Rational::from(&u[i] - &v[i]));
         let worst = off.map(|c| nearest_f64(&c).abs()).fold(0.0, f64::max);
-        debug_assert!(worst > 0.0 || cross(&u, &v).iter().all(|c| *c == 0), "equal directions");
         if worst > gap.0 {
             gap = (worst, k);
         }
