@@ -3,6 +3,7 @@
 
 pub mod approximation;
 pub mod ball;
+pub mod bounded;
 pub mod circle_fraction;
 pub mod determinant;
 pub mod disc;
