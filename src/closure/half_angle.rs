@@ -7,7 +7,7 @@
 
 use super::woernle_lee::{FIXED, MarkedLine, TURNING_X, TURNING_Y, act_on_form, left_columns};
 use crate::algebra::reduction::{Reduction, reduce};
-use crate::algebra::ring::Field;
+use crate::algebra::ring::{Field, Ring};
 use crate::kinematics::closed_loop::ClosedLoop;
 
 /// The closure equations of a cut that remain when unknowns 4, 5 and 6 are eliminated from its 14. They depend on the
@@ -24,12 +24,31 @@ pub struct HalfAngleForm<F> {
     pub score: f64,
 }
 
+/// The row operations behind a half-angle form. Over inexact fields they are approximate, and a proof bounds by how much.
+#[derive(Clone, Debug)]
+pub struct Combinations<F> {
+    /// Rows that annihilate the left side.
+    pub annihilators: [MarkedLine<F>; 6],
+    /// A left inverse of the left side: row k gives its monomial k.
+    pub monomials: [MarkedLine<F>; 9],
+    /// Rows that annihilate what turns with `e^(+i q3)`, see [`turning`].
+    pub without_plus: [[F; 12]; 4],
+    /// A left inverse of that.
+    pub turning_inverse: [[F; 12]; 8],
+}
+
 /// Eliminates unknowns 4, 5 and 6 of a cut; `None` if it is degenerate and loses equations.
+#[must_use]
+pub fn half_angle_form<F: Field>(cut: &ClosedLoop<F>) -> Option<HalfAngleForm<F>> {
+    with_combinations(cut).map(|(form, _)| form)
+}
+
+/// As [`half_angle_form`], with the row operations.
 ///
 /// # Panics
 /// Never: a reduction of full rank has a pivot in every column.
 #[must_use]
-pub fn half_angle_form<F: Field>(cut: &ClosedLoop<F>) -> Option<HalfAngleForm<F>> {
+pub fn with_combinations<F: Field>(cut: &ClosedLoop<F>) -> Option<(HalfAngleForm<F>, Combinations<F>)> {
     let columns = left_columns(cut);
     let left: [[F; 9]; 15] = std::array::from_fn(|i| std::array::from_fn(|j| columns[j][i].clone()));
     let solved: Reduction<F, 15, 9> = reduce(left);
@@ -39,10 +58,38 @@ pub fn half_angle_form<F: Field>(cut: &ClosedLoop<F>) -> Option<HalfAngleForm<F>
     let mut annihilators: [MarkedLine<F>; 6] = std::array::from_fn(|k| solved.transform[9 + k].clone());
     F::orthonormalise(&mut annihilators);
     let back = cut.constants[2].inverse();
-    let free_of_last = annihilators.map(|n| act_on_form(&n, &back));
+    let free_of_last = annihilators.each_ref().map(|n| act_on_form(n, &back));
 
-    // Left null vectors (yr, yi) of [[Mx, My], [-My, Mx]]: the combinations without e^(+i q3).
-    let turning: [[F; 8]; 12] = std::array::from_fn(|i| {
+    let split: Reduction<F, 12, 8> = reduce(turning(&free_of_last));
+    if split.rank < 8 {
+        return None;
+    }
+    let mut without_plus: [[F; 12]; 4] = std::array::from_fn(|k| split.transform[8 + k].clone());
+    F::orthonormalise(&mut without_plus);
+    let rows = combined(&without_plus, &free_of_last);
+
+    let solving = |column: usize| {
+        let row = solved.columns.iter().position(|&c| c == column).expect("all nine columns have a pivot");
+        solved.transform[row].clone()
+    };
+    let monomials: [MarkedLine<F>; 9] = std::array::from_fn(solving);
+    let solving = |column: usize| {
+        let row = split.columns.iter().position(|&c| c == column).expect("all eight columns have a pivot");
+        split.transform[row].clone()
+    };
+    let turning_inverse = std::array::from_fn(solving);
+    // Monomials run (1, c5, s5) slowly, (1, c4, s4) fast.
+    let last_monomials = [3, 6, 1, 2].map(|k| monomials[k].clone());
+    let score = solved.independence.min(split.independence);
+    let form = HalfAngleForm { rows, free_of_last, last_monomials, score };
+    Some((form, Combinations { annihilators, monomials, without_plus, turning_inverse }))
+}
+
+/// The coefficients of `e^(+i q3)` in the equations free of unknowns 4 to 6: a real and an imaginary part of each. Left null vectors
+/// (yr, yi) of this matrix `[[Mx, My], [-My, Mx]]` are the combinations without `e^(+i q3)`.
+#[must_use]
+pub fn turning<R: Ring>(free_of_last: &[MarkedLine<R>; 6]) -> [[R; 8]; 12] {
+    std::array::from_fn(|i| {
         std::array::from_fn(|j| {
             let (m, x_block) = (&free_of_last[i % 6], j < 4);
             match (i < 6, x_block) {
@@ -52,19 +99,17 @@ pub fn half_angle_form<F: Field>(cut: &ClosedLoop<F>) -> Option<HalfAngleForm<F>
                 (false, false) => m[TURNING_X[j - 4]].clone(),
             }
         })
-    });
-    let split: Reduction<F, 12, 8> = reduce(turning);
-    if split.rank < 8 {
-        return None;
-    }
-    let mut combinations: [[F; 12]; 4] = std::array::from_fn(|k| split.transform[8 + k].clone());
-    F::orthonormalise(&mut combinations);
+    })
+}
 
-    let mut rows: [MarkedLine<F>; 8] = std::array::from_fn(|_| std::array::from_fn(|_| F::zero()));
+/// The rows of a half-angle form, from the combinations of the equations free of unknowns 4 to 6 that hold no `e^(+i q3)`.
+#[must_use]
+pub fn combined<R: Ring>(combinations: &[[R; 12]; 4], free_of_last: &[MarkedLine<R>; 6]) -> [MarkedLine<R>; 8] {
+    let mut rows: [MarkedLine<R>; 8] = std::array::from_fn(|_| std::array::from_fn(|_| R::zero()));
     for (k, y) in combinations.iter().enumerate() {
         let (real, imaginary) = y.split_at(6);
-        let combine = |weights: &[F], at: usize| {
-            weights.iter().zip(&free_of_last).fold(F::zero(), |sum, (w, m)| sum.add(&w.mul(&m[at])))
+        let combine = |weights: &[R], at: usize| {
+            weights.iter().zip(free_of_last).fold(R::zero(), |sum, (w, m)| sum.add(&w.mul(&m[at])))
         };
         for (x, y) in TURNING_X.into_iter().zip(TURNING_Y) {
             let (along, across) = (combine(real, x), combine(imaginary, x));
@@ -78,15 +123,5 @@ pub fn half_angle_form<F: Field>(cut: &ClosedLoop<F>) -> Option<HalfAngleForm<F>
             rows[4 + k][i] = combine(imaginary, i).neg();
         }
     }
-    // Monomials run (1, c5, s5) slowly, (1, c4, s4) fast.
-    let solving = |monomial: usize| {
-        let row = solved.columns.iter().position(|&c| c == monomial).expect("all nine columns have a pivot");
-        solved.transform[row].clone()
-    };
-    Some(HalfAngleForm {
-        rows,
-        free_of_last,
-        last_monomials: [solving(3), solving(6), solving(1), solving(2)],
-        score: solved.independence.min(split.independence),
-    })
+    rows
 }

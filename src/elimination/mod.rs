@@ -2,6 +2,7 @@
 
 pub mod affine_platform;
 pub mod border;
+pub mod brackets;
 pub mod characteristic;
 pub mod common_roots;
 pub mod coordinate_ring;

@@ -165,6 +165,18 @@ enum Step<R> {
     Unknown(Variable),
 }
 
+impl<R: Ring> ClosedLoop<R> {
+    /// Returns the loop with all lengths times a factor.
+    #[must_use]
+    pub fn in_unit(&self, factor: &R) -> Self {
+        let scaled = |motion: &Motion<R>| Motion {
+            translation: motion.translation.each_ref().map(|x| x.mul(factor)),
+            ..motion.clone()
+        };
+        Self { variables: self.variables, constants: self.constants.each_ref().map(scaled) }
+    }
+}
+
 impl<R: Ring> OpenLoop<R> {
     /// Returns the loop with this closing transformation: `V6 G6` with `G6 = before_gap * closing * after_gap`.
     #[must_use]
