@@ -302,15 +302,20 @@ impl Search<'_> {
         outcome.settled = !candidates.as_slice().is_empty();
         outcome.whole = candidates.as_slice().len() == kernel.dimension;
         for candidate in candidates.as_slice() {
-            let mut start = [S::zero(); 6];
-            for (j, value) in candidate.iter().enumerate() {
-                let (index, (order, flipped)) = (cut.unknown_index(j), self.arrangement);
-                let flip = flipped && self.closed.variables[order[index]] == Variable::Translation;
-                start[order[index]] = if cut.reversed == flip { *value } else { value.neg() };
-            }
-            outcome.settled &= self.admit(&start);
+            outcome.settled &= self.admit(&self.in_loop_order(cut, candidate));
         }
         outcome
+    }
+
+    /// Returns the unknowns of a cut in the order and direction of the loop.
+    pub(super) fn in_loop_order<S: Scalar>(&self, cut: Cut, candidate: &Six<S>) -> Six<S> {
+        let mut unknowns = [S::zero(); 6];
+        for (j, value) in candidate.iter().enumerate() {
+            let (index, (order, flipped)) = (cut.unknown_index(j), self.arrangement);
+            let flip = flipped && self.closed.variables[order[index]] == Variable::Translation;
+            unknowns[order[index]] = if cut.reversed == flip { *value } else { value.neg() };
+        }
+        unknowns
     }
 
     /// Polishes a candidate and lists it if it closes. Returns whether it was a solution from the start.

@@ -8,6 +8,7 @@ use super::prepared::PreparedCut;
 use super::high_precision::solve_in_high_precision;
 use super::search::{AS_IT_IS, Effort, Search};
 use super::shifted::Shifted;
+use crate::algebra::double_double::DoubleDouble;
 use crate::closure::half_angle::half_angle_form;
 use crate::elimination::coordinate_ring::Plan;
 use crate::elimination::cut::{Cut, Hidden};
@@ -16,10 +17,13 @@ use crate::elimination::pencil::{before_second_link, bilinear};
 use crate::elimination::point_reach::general_count;
 use crate::kinematics::closed_loop::{ClosedLoop, OpenLoop, Variable};
 use crate::kinematics::motion::Motion;
+use crate::kinematics::tolerance::Tolerance;
 use crate::solve::decoupled::Decoupled;
 use crate::solve::eigen::{EigenWorkspace, companion};
+use crate::solve::newton::product;
 use crate::solve::scalar::Extended;
 use crate::solve::singular::structural_rank;
+use std::sync::OnceLock;
 
 /// A prepared geometry, which solves many poses.
 ///
@@ -57,6 +61,8 @@ pub struct Solver {
     decoupled: Option<Decoupled>,
     /// Index of the first of the three rotations of a spherical joint, if there is one.
     spherical: Option<usize>,
+    /// The cuts and hidden angles in which real solutions are looked for by zeros, those first in which they are apart as a rule.
+    zero_order: OnceLock<Vec<(usize, Hidden)>>,
 }
 
 /// The closing transformation at a pose or input: the constant behind the last unknown, in the scale of its solver.
@@ -68,6 +74,17 @@ pub struct Gap {
     is_rough: bool,
 }
 
+/// For what a list of real solutions is to be proved beside the pose or input itself.
+#[derive(Clone, Copy, Debug)]
+pub enum Margin {
+    /// Every pose within a tolerance has as many solutions, so that nothing else is near.
+    Tolerance(Tolerance),
+    /// The pose itself, where the determinant is not nearer to a double zero than by so much in parts of its largest value.
+    Blur(f64),
+}
+
+/// Values of six unknowns without any property.
+const ANY_PLACE: [f64; 6] = [0.7, -1.1, 1.9, 0.4, -2.3, 1.3];
 /// Rounding errors, in units u, of the rotation of a closing transformation, by rows. It is a product of three rotations,
 /// each rounded once. An entry of the first product is off by 5 u, one of the second by 5 sqrt(3) u and 4 u of its own.
 const GAP_TURN: f64 = 40.0;
@@ -102,6 +119,8 @@ pub struct Workspace {
     pub platform_assembly: PlatformAssembly,
     /// Whether a list counts as complete once its real solutions are, though complex ones may be missing.
     pub only_real_list: bool,
+    /// Whether real solutions are looked for first, and complex ones only where these are not proved to be all.
+    pub real_first: bool,
     /// Whether clustered solutions are listed without a proof of completeness if the numbers lie in a number field, where
     /// that proof takes seconds.
     pub leaves_fields: bool,
@@ -142,20 +161,26 @@ impl Solver {
                 // The closing transformation is constant 6 of the original loop.
                 let free = cut.constant_index(1) != 5;
                 let rows = free.then(|| before_second_link(&form, &view.constants[1]));
-                (form.score > limits::SCORE).then_some(PreparedCut { cut, form, rows })
+                (form.score > limits::SCORE).then(|| PreparedCut::new(cut, form, rows))
             })
             .collect();
         prepared.sort_by(|a, b| b.form.score.total_cmp(&a.form.score));
         let structural_rank = structural_rank(&closed);
         let axis_triples = AxisTriple::all(&open);
         let decoupled = decoupled(&open);
-        Self { open, scale, prepared, structural_rank, axis_triples, decoupled, spherical: None }
+        Self { open, scale, prepared, structural_rank, axis_triples, decoupled, spherical: None, zero_order: OnceLock::new() }
     }
 
     /// As [`Solver::prepare`] for a loop with a spherical joint, whose three rotations begin at this unknown.
     #[must_use]
     pub fn with_spherical_joint(open: &OpenLoop<f64>, spherical: usize) -> Self {
         Self { spherical: Some(spherical), decoupled: None, prepared: Vec::new(), ..Self::prepare(open) }
+    }
+
+    /// Returns the power of two that is the unit of lengths inside the solver.
+    #[must_use]
+    pub fn unit(&self) -> f64 {
+        self.scale
     }
 
     /// Returns the largest rank the six joints reach in general position. Below 6 the arm is structurally deficient, and
@@ -289,14 +314,77 @@ impl Solver {
         self.search(gap, Roots::All, Effort::OnePencil, workspace, assembly);
     }
 
+    /// Finds the real solutions at one pose or input by the zeros of a determinant on the circle of a hidden angle, and returns
+    /// whether they are proved to be all: as many solutions are certified as the determinant has zeros, each of them simple. `exact`
+    /// gives the loop rounded once from the exact data and closed by the identity. It is asked once per geometry.
+    pub fn solve_real(
+        &self,
+        gap: &Gap,
+        exact: &dyn Fn() -> Option<ClosedLoop<DoubleDouble>>,
+        margin: Margin,
+        workspace: &mut Workspace,
+        assembly: &mut Assembly,
+    ) -> bool {
+        assembly.clear();
+        if self.structural_rank < 6 || self.spherical.is_some() {
+            return false;
+        }
+        let closed = self.close(gap);
+        let unit = DoubleDouble::from(1.0 / self.scale);
+        let exact = || exact().map(|exact| exact.in_unit(&unit));
+        let order = self.zero_order.get_or_init(|| self.zero_order(&exact));
+        let margins = match margin {
+            // A turn by a small angle changes a row of a rotation by less than twice that angle, and a translation by the angle times
+            // the length that is turned: one end, and the translation itself.
+            Margin::Tolerance(Tolerance { length: shift, angle }) => {
+                let ends = [&self.open.before_gap, &self.open.after_gap, &gap.last].map(length).iter().sum::<f64>();
+                [gap.rounding + 1.01 * (shift / self.scale + 2.0 * angle * (1.0 + 2.0 * ends)), 0.0]
+            }
+            Margin::Blur(blur) => [gap.rounding, blur],
+        };
+        let mut search = self.searched(gap, &closed, Roots::Real, Effort::OnePencil, workspace, assembly);
+        let is_proved = search.by_zeros(order, margins, &exact);
+        self.finish(assembly);
+        is_proved
+    }
+
+    /// Returns the cuts and hidden angles, those first that tell the zeros apart at a pose without any property: where a geometry is
+    /// special, solutions share some of the angles at every pose.
+    fn zero_order(&self, exact: &dyn Fn() -> Option<ClosedLoop<DoubleDouble>>) -> Vec<(usize, Hidden)> {
+        let mut closed = self.close(&self.gap(&Motion::identity()));
+        closed.constants[5] = Motion::identity();
+        closed.constants[5] = product(&closed, &ANY_PLACE.map(|x| (x.cos(), x.sin())), 6).inverse();
+        let mut order: Vec<(bool, usize, Hidden)> = Vec::new();
+        for (k, prepared) in self.prepared.iter().enumerate() {
+            let Some(rows) = prepared.enclosed(exact) else { continue };
+            let equations = rows.equations(&closed, 0.0);
+            order.extend([Hidden::First, Hidden::Second].map(|hidden| (equations.zeros(hidden, 0.0).is_none(), k, hidden)));
+        }
+        order.sort_by_key(|(fails, ..)| *fails);
+        order.into_iter().map(|(_, k, hidden)| (k, hidden)).collect()
+    }
+
     /// Finds solutions with the given effort.
     fn search(&self, gap: &Gap, roots: Roots, effort: Effort<'_>, workspace: &mut Workspace, assembly: &mut Assembly) {
         assembly.clear();
         let closed = self.close(gap);
-        let eigen = &mut workspace.eigen;
+        self.searched(gap, &closed, roots, effort, workspace, assembly).run();
+        self.finish(assembly);
+    }
+
+    /// Returns a search that has not begun.
+    fn searched<'a>(
+        &'a self,
+        gap: &Gap,
+        closed: &'a ClosedLoop<f64>,
+        roots: Roots,
+        effort: Effort<'a>,
+        workspace: &'a mut Workspace,
+        assembly: &'a mut Assembly,
+    ) -> Search<'a> {
         Search {
             prepared: &self.prepared,
-            closed: &closed,
+            closed,
             spherical: self.spherical,
             decoupled: self.decoupled,
             arrangement: AS_IT_IS,
@@ -304,11 +392,9 @@ impl Solver {
             gap_rounding: gap.rounding,
             roots,
             effort,
-            eigen,
+            eigen: &mut workspace.eigen,
             assembly,
         }
-        .run();
-        self.finish(assembly);
     }
 
     /// Searches for the missing solutions of a list in multiprecision. `exact` is the same closed loop from exact data,
@@ -320,12 +406,7 @@ impl Solver {
         expected: usize,
         assembly: &mut Assembly,
     ) {
-        let unit = R::from(1.0 / self.scale);
-        let constants = exact
-            .constants
-            .each_ref()
-            .map(|motion| Motion { translation: motion.translation.map(|x| x.mul(&unit)), ..motion.clone() });
-        let scaled = ClosedLoop { variables: exact.variables, constants };
+        let scaled = exact.in_unit(&R::from(1.0 / self.scale));
         self.scale_lengths(assembly, 1.0 / self.scale, 1.0 / self.scale.max(1.0));
         let modes = solve_in_high_precision(&scaled, self.spherical, plan, expected);
         assembly.complete_with(modes, &self.open.variables, expected, R::BITS);

@@ -305,12 +305,22 @@ impl Plan {
     /// Returns the ring of the same loop in another field; `None` where a pivot vanishes that should not.
     #[must_use]
     pub fn ring<F: Field>(&self, closed: &ClosedLoop<F>) -> Option<CoordinateRing<F>> {
+        self.ring_within(closed, |_| true)
+    }
+
+    /// As [`Plan::ring`], as long as every relation, reduced, is taken by `may_go_on`; `None` from then on.
+    #[must_use]
+    pub fn ring_within<F: Field>(
+        &self,
+        closed: &ClosedLoop<F>,
+        mut may_go_on: impl FnMut(&[F]) -> bool,
+    ) -> Option<CoordinateRing<F>> {
         let setting = Setting::of(closed, self.is_zero)?;
         let mut relations = setting.relations(self.most);
         for (source, column) in &self.steps {
             let relation = relations.relation(&setting.equations, *source)?;
             let (column, row) = relations.reduced(&relation, Some(*column))?;
-            if !relations.take(column, &row) {
+            if !may_go_on(&row) || !relations.take(column, &row) {
                 return None;
             }
         }

@@ -13,7 +13,7 @@ use crate::algebra::drawn::Drawn;
 use crate::algebra::ring::{Domain, Field, Ring};
 use crate::algebra::univariate::Univariate;
 use crate::closure::half_angle::half_angle_form;
-use crate::elimination::coordinate_ring::Plan;
+use crate::elimination::coordinate_ring::{CoordinateRing, Plan};
 use crate::elimination::cut::{Cut, Hidden};
 use crate::elimination::degree::closure_polynomial;
 use crate::elimination::pencil::{Pencil, before_second_link, bilinear, pencil};
@@ -105,6 +105,19 @@ fn is_short(closed: &ClosedLoop<Rational>) -> bool {
     numbers.map(bits).max() <= Some(SHORT)
 }
 
+/// Words of all numbers of reduced relations after which a ring over the rationals is given up.
+const MOST_WORDS: u64 = 1_000_000;
+
+/// Returns the ring over the rationals that a plan leads to; `None` where its relations become too long.
+fn ring(plan: &Plan, closed: &ClosedLoop<Rational>) -> Option<CoordinateRing<Rational>> {
+    let mut words = 0;
+    let length = |x: &Rational| u64::from(x.numer().significant_bits() + x.denom().significant_bits()) / 64;
+    plan.ring_within(closed, |row| {
+        words += row.iter().map(length).sum::<u64>();
+        words < MOST_WORDS
+    })
+}
+
 /// Returns whether a loop is proved to have no solution, complex ones included: 1 is a combination of its closure equations over
 /// the rationals. `false` where no such combination is found, and where numbers are long.
 ///
@@ -112,7 +125,7 @@ fn is_short(closed: &ClosedLoop<Rational>) -> bool {
 /// rationals.
 #[must_use]
 pub fn has_no_solution(closed: &ClosedLoop<Rational>, plan: &Plan) -> bool {
-    plan.count() == 0 && is_short(closed) && plan.ring(closed).is_some()
+    plan.count() == 0 && is_short(closed) && ring(plan, closed).is_some()
 }
 
 /// The eliminant of an unknown as the characteristic polynomial of its values in the ring of the closure equations over the
@@ -131,7 +144,7 @@ pub fn eliminant_by_ring(
         return None;
     }
     let cut = Cut { rotation: unknown, reversed: false };
-    let ring = Plan::of(&cut.of(modular))?.ring(&cut.of(closed))?;
+    let ring = ring(&Plan::of(&cut.of(modular))?, &cut.of(closed))?;
     let (rotated, _) = ring.view();
     let pencil = ring.tangent_pencil((6 - rotated) % 6);
     let count = pencil[0].len();

@@ -2,19 +2,22 @@
 
 use super::bounds::{MODULO, of_cuts, of_ring, of_triple};
 use super::by_input::{ByInput, Prepared};
-use super::unproved::{cap, is_left_to_equations, is_settled, moving, perhaps_near, probable};
+use super::unproved::{cap, is_left_to_equations, is_settled, moving, not_moving, perhaps_near, probable};
 use super::data::{Data, Modular, is_rational};
 use super::dependence::dependent;
 use super::exact_loop::{SsDyadQuestion, Question as ExactQuestion};
 use super::exact_modes::exact_mode;
 use super::vicinity::Vicinity;
 use super::{FullMode, Solution};
+use crate::algebra::double_double::DoubleDouble;
 use crate::algebra::drawn::{self, Drawn};
 use crate::algebra::enclosure::Enclosure;
 use crate::algebra::interval::Interval;
 use crate::algebra::long_float::{LongFloat, LongerFloat};
 use crate::algebra::ring::Ring;
-use crate::assembly::{Assembly, Gap, Mode, Roots, Solver, Workspace, are_apart, ss_dyad, wrapped};
+use crate::assembly::{
+    Assembly, Gap, Margin, Mode, Roots, Solver, Workspace, are_apart, distinct_real, ss_dyad, wrapped,
+};
 use crate::catalogue::entry::{Case, Entry, InputValue};
 use crate::elimination::coordinate_ring::Plan;
 use crate::elimination::degree::Degree;
@@ -70,6 +73,13 @@ struct SphericalPair {
 /// Modes of a lower condition number are those of the mechanism that rounded data stand for: these are off by 1e-17.
 const FIRM: f64 = 1e10;
 
+/// Where the closure polynomial comes nearer to a double zero than this, in parts of its largest value and of the tolerance, a
+/// configuration may be near the pose: its value changed by up to 3000 times what poses did, in 200 arms.
+const NEAR: f64 = 3000.0;
+
+/// The tolerance of what has to be met exactly.
+const NOTHING: Tolerance = Tolerance { length: 0.0, angle: 0.0 };
+
 /// A solution in spherical joints.
 type ExactSolution = exact::Solution<BALL_BITS>;
 
@@ -88,6 +98,12 @@ impl SixUnknowns {
     pub(super) fn enclosed(&self, chain: &Chain, case: &Case) -> Result<Option<ClosedLoop<Enclosure>>> {
         let open = self.enclosed.get_or_init(|| chain.try_open_loop(&self.layout).ok().flatten());
         open.as_ref().map(|open| Ok(open.close(&closing_transformation(case)?))).transpose()
+    }
+
+    /// The loop rounded once, closed by the identity; `None` where its numbers are not known to so many digits.
+    fn exact(&self, chain: &Chain) -> Option<ClosedLoop<DoubleDouble>> {
+        let open = self.enclosed.get_or_init(|| chain.try_open_loop(&self.layout).ok().flatten());
+        Some(open.as_ref()?.rounded::<DoubleDouble>(DoubleDouble::BITS)?.close(&Motion::identity()))
     }
 
     /// Returns a bound on the number of solutions at every pose or input: the least one that is known, unless it is at most
@@ -155,8 +171,9 @@ impl SingleLoop {
         };
         let solver = &prepared.solver;
         let float = case.pose.as_ref().and_then(Placement::inverse_in_f64);
-        let mut gap = solver.gap(&float.map_or_else(|| closing_transformation(case), Ok)?);
-        if gap.is_rough() {
+        let mut gap = solver.gap(&float.clone().map_or_else(|| closing_transformation(case), Ok)?);
+        // Irrational numbers of a pose are enclosed: the rationals in their place have the digits that are printed.
+        if gap.is_rough() || float.is_none() && !is_rational(case) {
             let closed = prepared.enclosed(&self.chain, case)?.and_then(|closed| closed.rounded(f64::MANTISSA_DIGITS));
             gap = closed.map_or(gap, |ClosedLoop { constants: [.., last], .. }| solver.exact_gap(&last));
         }
@@ -167,6 +184,9 @@ impl SingleLoop {
             roots,
             leaves_fields: workspace.leaves_fields,
             only_lists: workspace.only_lists,
+            only_real_list: workspace.only_real_list || roots == Roots::Real,
+            real_first: workspace.real_first,
+            tolerance: case.pose.is_some().then_some(tolerance),
             gap: &gap,
             by_cuts: OnceCell::new(),
             ring: OnceCell::new(),
@@ -187,10 +207,15 @@ impl SingleLoop {
             && is_left_to_equations(&verdict)
             && prepared.layout.spherical.is_none()
             && matches!(question.data(), Data::Rational)
-            && let Some((exact, modes)) = self.exactly(&prepared.layout, case, true)?
         {
-            match (exact.status, &case.pose) {
-                (Status::SelfMotion, _) => {
+            let exact = self.exactly(&prepared.layout, case, true)?;
+            let exact = match exact {
+                None => self.modulo_prime(&prepared.layout, case)?.map(|verdict| (verdict, Vec::new())),
+                known => known,
+            };
+            match exact.map(|(exact, modes)| (exact.status, exact, modes)) {
+                None => {}
+                Some((Status::SelfMotion, exact, _)) => {
                     let rest = "the isolated ones are listed, not proved complete";
                     let is_alike = exact.self_motion == verdict.self_motion;
                     let reason = match (verdict.status, solver.structural_rank()) {
@@ -205,9 +230,17 @@ impl SingleLoop {
                         family.dimension = family.dimension.min(exact.self_motion);
                     }
                 }
-                (_, None) => return Ok(exact_solution(case, exact, modes, *prepare_us, start)),
+                // Finitely many solutions, but not which. What f64 takes for a self-motion is near the pose.
+                Some((Status::Incomplete, exact, _)) => {
+                    if verdict.status == Status::SelfMotion {
+                        verdict = not_moving(&exact, verdict);
+                    }
+                }
+                Some((_, exact, modes)) if case.pose.is_none() => {
+                    return Ok(exact_solution(case, exact, modes, *prepare_us, start));
+                }
                 // The pose is also answered by near solutions, which follow the exact ones in the list.
-                (_, Some(_)) => (verdict, exact_modes) = (exact, Some(modes)),
+                Some((_, exact, modes)) => (verdict, exact_modes) = (exact, Some(modes)),
             }
         }
         if solver.structural_rank() < 6 {
@@ -256,6 +289,14 @@ impl SingleLoop {
         }
         let question = ExactQuestion { chain: &self.chain, layout, case, limits: &self.limits, is_rounded };
         Ok(question.answer()?.filter(|(verdict, _)| !is_rounded || verdict.real > 0 || verdict.self_motion > 0))
+    }
+
+    /// The dimension of the solutions modulo a prime, as a verdict; `None` where it takes too long, and for rounded data.
+    fn modulo_prime(&self, layout: &Layout, case: &Case) -> Result<Option<Verdict>> {
+        if self.is_rounded || !is_exact(case) {
+            return Ok(None);
+        }
+        ExactQuestion { chain: &self.chain, layout, case, limits: &self.limits, is_rounded: false }.modulo_prime()
     }
 
     /// Solves a loop with two spherical joints.
@@ -325,6 +366,12 @@ struct Question<'a> {
     leaves_fields: bool,
     /// As in [`Workspace::only_lists`].
     only_lists: bool,
+    /// Whether a list counts as complete once its real solutions are.
+    only_real_list: bool,
+    /// As in [`Workspace::real_first`].
+    real_first: bool,
+    /// The tolerance of a pose.
+    tolerance: Option<Tolerance>,
     gap: &'a Gap,
     /// The exact count of all cuts.
     by_cuts: OnceCell<Option<Degree>>,
@@ -464,15 +511,39 @@ impl Question<'_> {
             if self.only_lists { self.prepared.general() } else { self.prepared.bound(&self.of.chain, known).count }
         };
         let SixUnknowns { solver, .. } = self.prepared;
+        let is_first = self.real_first || self.roots == Roots::Real;
+        if is_first && self.has_real_list(workspace, assembly) {
+            return self.of_real_zeros(assembly);
+        }
         if self.has_eliminants() {
+            if self.only_real_list && !solver.is_decoupled() {
+                solver.solve_briefly(self.gap, workspace, assembly);
+                let found = assembly.total();
+                if found >= most(found) {
+                    let verdict = self.judge(assembly);
+                    if is_settled(&verdict) {
+                        return verdict;
+                    }
+                }
+                if self.has_real_list(workspace, assembly) {
+                    return self.of_real_zeros(assembly);
+                }
+            }
             solver.solve_by_pencils(self.gap, &most, workspace, assembly);
-            let (verdict, is_settled) = self.by_exact_roots(self.judge(assembly), assembly);
+            let verdict = self.judge(assembly);
+            if let Some(verdict) = self.beside_real_zeros(&verdict, workspace, assembly) {
+                return verdict;
+            }
+            let (verdict, is_settled) = self.by_exact_roots(verdict, assembly);
             if is_settled {
                 return verdict;
             }
         }
         solver.solve_up_to(self.gap, self.roots, &most, workspace, assembly);
         let mut verdict = self.judge(assembly);
+        if let Some(verdict) = self.beside_real_zeros(&verdict, workspace, assembly) {
+            return verdict;
+        }
         if !self.has_eliminants()
             && let Some(completed) = self.completed(&verdict, assembly)
         {
@@ -493,6 +564,65 @@ impl Question<'_> {
         verdict
     }
 
+    /// Finds the real solutions by the zeros of a determinant, and returns whether these prove them to be all. The list is then that of
+    /// the real solutions; otherwise it is undefined.
+    ///
+    /// What is near a pose is found from complex solutions, which are not looked for: either nothing is near, or there is a real
+    /// solution and no sign of others.
+    fn has_real_list(&self, workspace: &mut Workspace, assembly: &mut Assembly) -> bool {
+        let Some(tolerance) = self.tolerance else { return self.solve_real(Margin::Blur(0.0), workspace, assembly) };
+        if self.solve_real(Margin::Tolerance(tolerance), workspace, assembly) {
+            return true;
+        }
+        let blur = NEAR * tolerance.angle.max(tolerance.length / self.prepared.solver.unit());
+        self.solve_real(Margin::Blur(blur), workspace, assembly) && !assembly.modes.is_empty()
+    }
+
+    /// The verdict on a list of certified solutions, complex ones among them, where real solutions are asked for alone, the verdict at
+    /// hand is not proved, and the real ones are proved to be all by the zeros of a determinant. The complex ones stay in the list:
+    /// near a pose may be what is not real here.
+    fn beside_real_zeros(&self, verdict: &Verdict, workspace: &mut Workspace, assembly: &Assembly) -> Option<Verdict> {
+        let is_certified = |mode: &Mode| mode.multiplicity == 1 && mode.certificate.is_some();
+        let is_asked = self.only_real_list && !self.only_lists && !is_settled(verdict) && assembly.self_motion == 0;
+        if !is_asked || !assembly.modes.iter().all(is_certified) {
+            return None;
+        }
+        let number = distinct_real(&self.prepared.layout.loop_kinds(), &assembly.modes)?;
+        // Whether a pose that is not reached is reached nearly, complex solutions tell.
+        if number == 0 && self.tolerance.is_some() {
+            return None;
+        }
+        let mut real = Assembly::default();
+        let is_proved = self.solve_real(Margin::Blur(0.0), workspace, &mut real) && real.modes.len() == number;
+        is_proved.then(|| self.of_real_zeros(assembly))
+    }
+
+    fn solve_real(&self, margin: Margin, workspace: &mut Workspace, assembly: &mut Assembly) -> bool {
+        let exact = || self.prepared.exact(&self.of.chain);
+        !self.only_lists && self.prepared.solver.solve_real(self.gap, &exact, margin, workspace, assembly)
+    }
+
+    /// The verdict on a list whose real solutions are proved to be all.
+    fn of_real_zeros(&self, assembly: &Assembly) -> Verdict {
+        let real = assembly.real();
+        let reason = format!(
+            "{real} distinct certified real solutions: the closure polynomial in a joint angle has {real} real zeros, all simple; \
+             complex solutions were not counted"
+        );
+        Verdict {
+            status: if real == 0 { Status::Unreachable } else { Status::Complete },
+            proof: Proof::Proved,
+            code: Code::RealZerosMatched,
+            complex_complete: false,
+            complex: assembly.total(),
+            real,
+            at_infinity: 0,
+            self_motion: 0,
+            certified: assembly.modes.len(),
+            reason,
+        }
+    }
+
     /// The verdict on a loop of dependent joints that has no solution modulo the prime: proved where the same combination of
     /// the closure equations is 1 over the rationals.
     fn without_solution(&self, verdict: Verdict) -> Verdict {
@@ -500,7 +630,7 @@ impl Question<'_> {
             return verdict;
         }
         // A contradiction in intervals holds for every value of the data.
-        if self.is_clear(Tolerance { length: 0.0, angle: 0.0 }) {
+        if self.is_clear(NOTHING) {
             let reason = format!("{}; in intervals 1 is a combination of the closure equations", verdict.reason);
             return Verdict { proof: Proof::Proved, reason, ..verdict };
         }

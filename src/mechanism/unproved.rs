@@ -20,6 +20,12 @@ pub(super) fn moving(exact: &Verdict, found: Verdict) -> Verdict {
     Verdict { status, proof, code, self_motion, complex_complete: false, ..found }
 }
 
+/// The verdict on a self-motion that was measured, where there are finitely many solutions.
+pub(super) fn not_moving(finite: &Verdict, found: Verdict) -> Verdict {
+    let Verdict { status, proof, code, .. } = *finite;
+    Verdict { status, proof, code, self_motion: 0, complex_complete: false, reason: finite.reason.clone(), ..found }
+}
+
 /// Returns the verdict, `incomplete` where it denies every real solution and nothing proves that.
 pub(super) fn not_denied(verdict: Verdict) -> Verdict {
     if verdict.status != Status::Unreachable || verdict.proof != Proof::None {

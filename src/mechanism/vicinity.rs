@@ -84,7 +84,9 @@ impl Vicinity<'_> {
         let (exact, seen) = if is_moving { (inside, Vec::new()) } else { (Vec::new(), inside) };
         let (chain, layout) = (&self.of.chain, &self.prepared.layout);
         let is_deficient = self.prepared.solver.structural_rank() < 6;
-        let is_empty = status == Status::Unreachable && starts.is_empty() && verdict.code != Code::OutOfReach;
+        // Where the closure polynomial of no pose within the tolerance has a real zero, there is nothing to start from either.
+        let is_denied = matches!(verdict.code, Code::OutOfReach | Code::RealZerosMatched);
+        let is_empty = status == Status::Unreachable && starts.is_empty() && !is_denied;
         let here = Neighbourhood { chain, layout, pose, closed: &closed, scale, tolerance, is_deficient, is_empty };
         here.run(&starts, &exact, &seen)
     }

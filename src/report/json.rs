@@ -6,7 +6,7 @@ use crate::catalogue::entry::{Case, Entry, Kind};
 use crate::kinematics::platform_limits::Part;
 use crate::kinematics::tolerance::PoseError;
 use crate::mechanism::{Family, FullMode, Solution};
-use crate::verdict::{Proof, Verdict};
+use crate::verdict::{Code, Proof, Verdict};
 use num_complex::Complex;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::{Map, Value, json};
@@ -158,7 +158,9 @@ fn insert_verdict<M: SerializeMap>(map: &mut M, verdict: &Verdict, near: usize) 
     map.serialize_entry("proof", verdict.proof.word())?;
     map.serialize_entry("code", verdict.code.word())?;
     map.serialize_entry("complex_complete", &verdict.complex_complete)?;
-    map.serialize_entry("complex", &verdict.complex)?;
+    // Where the real solutions are counted alone, nothing is known of the others.
+    let is_counted = verdict.complex_complete || verdict.code != Code::RealZerosMatched;
+    map.serialize_entry("complex", &is_counted.then_some(verdict.complex))?;
     map.serialize_entry("real", &verdict.real)?;
     map.serialize_entry("at_infinity", &verdict.at_infinity)?;
     map.serialize_entry("self_motion", &verdict.self_motion)?;

@@ -55,6 +55,9 @@ pub enum Code {
     ExactRootsMatched,
     /// Every box of angles is proved empty, or holds exactly one listed solution; real solutions only.
     BoxesExhausted,
+    /// The closure polynomial in a joint angle has as many real zeros as there are certified solutions, and all are simple; real
+    /// solutions only.
+    RealZerosMatched,
     /// The number of solutions equals a count modulo primes.
     CountMet,
     /// The closure equations have no solution at all.
@@ -132,6 +135,7 @@ impl Code {
             Self::GeometryBoundMet => "geometry-bound-met",
             Self::ExactRootsMatched => "exact-roots-matched",
             Self::BoxesExhausted => "boxes-exhausted",
+            Self::RealZerosMatched => "real-zeros-matched",
             Self::CountMet => "count-met",
             Self::NoSolution => "no-solution",
             Self::OutOfReach => "out-of-reach",

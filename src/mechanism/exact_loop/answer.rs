@@ -5,8 +5,9 @@ use super::configuration::{Configuration, Configurations};
 use super::cycle::Cycle;
 use super::equations::System;
 use super::measure::measure;
-use super::outcome::{Outcome, Point, Points};
+use super::outcome::{Outcome, Point, Points, dimension_modulo_prime};
 use crate::algebra::disc::Disc;
+use crate::algebra::drawn;
 use crate::assembly::wrapped;
 use crate::catalogue::entry::Case;
 use crate::error::Result;
@@ -21,6 +22,9 @@ use rug::{Float, float::Round};
 /// Products of words after which a system is given up. Loops of four unknowns take a thousandth of it, half of the self-motions
 /// of six joints a part of it, and what general loops of five take, or some special ones, is hours.
 const EFFORT: u64 = 10_000_000;
+
+/// Products modulo a prime after which the dimension of a system is given up: half a second.
+const MODULAR_EFFORT: u64 = 30_000_000;
 
 /// Number of unknowns from which a cut is quicker than a Gröbner basis, which is out of reach there.
 const MANY: usize = 5;
@@ -60,9 +64,34 @@ impl Question<'_> {
             None => System::of_loop(&cycle.steps),
         };
         let Some(system) = system else { return Ok(None) };
-        Ok(Outcome::of(&system, EFFORT).map(|outcome| match outcome {
-            Outcome::Moving(dimension) => (self.moving(&cycle, dimension), Vec::new()),
-            Outcome::Finite(points) => self.finite(&cycle, &system, &points),
+        Ok(match Outcome::of(&system, EFFORT) {
+            Some(Outcome::Moving(dimension)) => Some((self.moving(&cycle, dimension), Vec::new())),
+            Some(Outcome::Finite(points)) => Some(self.finite(&cycle, &system, &points)),
+            None => None,
+        })
+    }
+
+    /// The verdict by a basis modulo the prime of the run, where that over the rationals takes too long since its numbers do: a
+    /// self-motion of some dimension, or finitely many solutions, which are not listed. `None` where this takes too long, too.
+    ///
+    /// # Errors
+    /// As [`Question::answer`].
+    pub fn modulo_prime(&self) -> Result<Option<Verdict>> {
+        let Some(cycle) = Cycle::of(self.chain, self.layout, self.case)?.filter(|cycle| cycle.before.is_none()) else {
+            return Ok(None);
+        };
+        let dimension = System::of_loop(&cycle.steps).and_then(|system| dimension_modulo_prime(&system, MODULAR_EFFORT));
+        Ok(dimension.map(|dimension| {
+            let verdict = self.moving(&cycle, dimension);
+            if dimension == 0 {
+                let of = equations(&cycle);
+                let reason = format!("not proved: finitely many solutions, by a Gröbner basis of {of} modulo a prime drawn at run time");
+                let (status, code) = (Status::Incomplete, Code::UnknownMultiplicity);
+                return Verdict { status, proof: Proof::None, code, reason, ..verdict };
+            }
+            let proof = Proof::Probable { error: drawn::PROBABILITY_OF_ERROR, seed: drawn::seed() };
+            let reason = verdict.reason.replace("over the rationals", "modulo a prime drawn at run time");
+                Verdict { proof, reason, ..verdict }
         }))
     }
 

@@ -3,6 +3,7 @@
 use super::equations::System;
 use super::roots::{Root, roots};
 use crate::algebra::disc::Disc;
+use crate::algebra::drawn::Drawn;
 use crate::algebra::groebner::{Basis, Equation, FiniteRing, Solutions, Values};
 use crate::algebra::univariate::Univariate;
 use rug::Rational;
@@ -65,6 +66,12 @@ impl Outcome {
         }
         Some(Self::Finite(Box::new(Points { solutions, count, distinct: points })))
     }
+}
+
+/// Returns the dimension of the set of solutions modulo the prime of the run, complex ones included, 0 for none; `None` where that takes
+/// more products, and where the prime divides a denominator.
+pub(crate) fn dimension_modulo_prime(system: &System, effort: u64) -> Option<usize> {
+    Some(Basis::<Drawn>::of(system.variables, &system.equations, effort)?.dimension().unwrap_or(0))
 }
 
 impl Points {
