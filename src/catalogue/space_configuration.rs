@@ -47,7 +47,7 @@ pub(super) fn configuration(
         let mut place = Motion::identity();
         if let Some(node) = table.get("quaternion") {
             place.rotation = own.rotation_quaternion(node)?;
-            // A quaternion of rational length gives a rational rotation; any other was replaced by the nearest one.
+            // Rational numbers give a rational rotation, whatever the length of the quaternion.
             exact &= is_exact(&own, node)?;
         }
         if let Some(node) = table.get("position") {

@@ -11,6 +11,7 @@ use crate::catalogue::tile::Tile;
 use crate::kinematics::linkage::Gaussian;
 use rug::Rational;
 use serde_json::{Value, json};
+use std::cmp::Ordering;
 use std::f64::consts::TAU;
 
 fn conjugate(z: &Gaussian) -> Gaussian {
@@ -24,6 +25,16 @@ fn area(a: &Gaussian, b: &Gaussian) -> Rational {
 
 fn square(z: &Gaussian) -> Rational {
     z.mul(&conjugate(z)).re
+}
+
+/// Returns whether the argument of a number, from 0 up to a whole turn, is less than that of another one.
+fn is_less(a: &Gaussian, b: &Gaussian) -> bool {
+    let is_lower = |z: &Gaussian| z.im < 0 || (z.im == 0 && z.re < 0);
+    match (is_lower(a), is_lower(b)) {
+        (false, true) => true,
+        (true, false) => false,
+        _ => area(a, b) > 0,
+    }
 }
 
 /// How two sides are paired: the other side, and whether the copy is mirrored.
@@ -101,14 +112,15 @@ impl Tile {
             if seen[start] {
                 continue;
             }
-            let (mut corners, mut product, mut sum) = (Vec::new(), Gaussian::one(), 0.0);
+            let (mut corners, mut product, mut turns) = (Vec::new(), Gaussian::one(), 0_u32);
             let (mut corner, mut side) = (start, start);
             loop {
                 seen[corner] = true;
                 corners.push(corner);
-                let angle = self.angle(corner);
-                product = product.mul(&angle);
-                sum += nearest_f64(&angle.im).atan2(nearest_f64(&angle.re)).rem_euclid(TAU);
+                // The sum of the angles is more than a whole turn where its remainder falls.
+                let next = product.mul(&self.angle(corner));
+                turns += u32::from(is_less(&next, &product));
+                product = next;
                 let (other, is_glide) = pairing[side];
                 // The image of the corner is the end of the other side at the same place along it, or at the opposite one.
                 let at_start = (corner == side) == is_glide;
@@ -121,14 +133,17 @@ impl Tile {
                     break;
                 }
             }
-            let fits = |k: u32| (sum * f64::from(k) - TAU).abs() < 1e-6;
-            let order = match (product.re.cmp0(), product.im.cmp0()) {
-                (std::cmp::Ordering::Greater, std::cmp::Ordering::Equal) if fits(1) => Some(1),
-                (std::cmp::Ordering::Less, std::cmp::Ordering::Equal) if fits(2) => Some(2),
-                (std::cmp::Ordering::Equal, std::cmp::Ordering::Greater) if fits(4) => Some(4),
+            let order = match (turns, product.re.cmp0(), product.im.cmp0()) {
+                (1, Ordering::Greater, Ordering::Equal) => Some(1),
+                (0, Ordering::Less, Ordering::Equal) => Some(2),
+                (0, Ordering::Equal, Ordering::Greater) => Some(4),
                 _ => None,
             };
-            cycles.push(Cycle { corners, order, angle: sum });
+            let size = if product.re.cmp_abs(&product.im).is_lt() { product.im.clone().abs() } else { product.re.clone().abs() };
+            let part = |x: &Rational| nearest_f64(&Rational::from(x / &size));
+            let rest = part(&product.im).atan2(part(&product.re)).rem_euclid(TAU);
+            let angle = f64::from(turns) * TAU + rest;
+            cycles.push(Cycle { corners, order, angle });
         }
         cycles
     }

@@ -1,12 +1,14 @@
 //! Arms and loops of seven joint variables: one loop of six unknowns for each choice of the locked variable.
 
+mod exact_roots;
+mod real_list;
+
 use super::bounds::{MODULO, of_cuts, of_ring, of_triple};
 use super::by_input::{ByInput, Prepared};
-use super::unproved::{cap, is_left_to_equations, is_settled, moving, not_moving, perhaps_near, probable};
+use super::unproved::{is_left_to_equations, is_settled, moving, not_moving, perhaps_near};
 use super::data::{Data, Modular, is_rational};
 use super::dependence::dependent;
 use super::exact_loop::{SsDyadQuestion, Question as ExactQuestion};
-use super::exact_modes::exact_mode;
 use super::vicinity::Vicinity;
 use super::{FullMode, Solution};
 use crate::algebra::double_double::DoubleDouble;
@@ -15,15 +17,13 @@ use crate::algebra::enclosure::Enclosure;
 use crate::algebra::interval::Interval;
 use crate::algebra::long_float::{LongFloat, LongerFloat};
 use crate::algebra::ring::Ring;
-use crate::assembly::{
-    Assembly, Gap, Margin, Mode, Roots, Solver, Workspace, are_apart, distinct_real, ss_dyad, wrapped,
-};
+use crate::assembly::{Assembly, Gap, Mode, Roots, Solver, Workspace, ss_dyad, wrapped};
 use crate::catalogue::entry::{Case, Entry, InputValue};
 use crate::elimination::coordinate_ring::Plan;
 use crate::elimination::degree::Degree;
 use crate::elimination::spherical_pair;
 use crate::error::{Error, Result};
-use crate::exact::{self, BALL_BITS, Known, MOST_WITH_TRIPLE, OverRationals, Resolution, has_no_solution, resolve};
+use crate::exact::{self, BALL_BITS, MOST_WITH_TRIPLE, Resolution, has_no_solution};
 use crate::kinematics::chain::{Chain, Placement};
 use crate::kinematics::closed_loop::{
     ClosedLoop, SsDyad, Layout, Numbers, OpenSsDyad, OpenLoop, Variable, angle_motion, distance_motion,
@@ -72,10 +72,6 @@ struct SphericalPair {
 
 /// Modes of a lower condition number are those of the mechanism that rounded data stand for: these are off by 1e-17.
 const FIRM: f64 = 1e10;
-
-/// Where the closure polynomial comes nearer to a double zero than this, in parts of its largest value and of the tolerance, a
-/// configuration may be near the pose: its value changed by up to 3000 times what poses did, in 200 arms.
-const NEAR: f64 = 3000.0;
 
 /// The tolerance of what has to be met exactly.
 const NOTHING: Tolerance = Tolerance { length: 0.0, angle: 0.0 };
@@ -564,65 +560,6 @@ impl Question<'_> {
         verdict
     }
 
-    /// Finds the real solutions by the zeros of a determinant, and returns whether these prove them to be all. The list is then that of
-    /// the real solutions; otherwise it is undefined.
-    ///
-    /// What is near a pose is found from complex solutions, which are not looked for: either nothing is near, or there is a real
-    /// solution and no sign of others.
-    fn has_real_list(&self, workspace: &mut Workspace, assembly: &mut Assembly) -> bool {
-        let Some(tolerance) = self.tolerance else { return self.solve_real(Margin::Blur(0.0), workspace, assembly) };
-        if self.solve_real(Margin::Tolerance(tolerance), workspace, assembly) {
-            return true;
-        }
-        let blur = NEAR * tolerance.angle.max(tolerance.length / self.prepared.solver.unit());
-        self.solve_real(Margin::Blur(blur), workspace, assembly) && !assembly.modes.is_empty()
-    }
-
-    /// The verdict on a list of certified solutions, complex ones among them, where real solutions are asked for alone, the verdict at
-    /// hand is not proved, and the real ones are proved to be all by the zeros of a determinant. The complex ones stay in the list:
-    /// near a pose may be what is not real here.
-    fn beside_real_zeros(&self, verdict: &Verdict, workspace: &mut Workspace, assembly: &Assembly) -> Option<Verdict> {
-        let is_certified = |mode: &Mode| mode.multiplicity == 1 && mode.certificate.is_some();
-        let is_asked = self.only_real_list && !self.only_lists && !is_settled(verdict) && assembly.self_motion == 0;
-        if !is_asked || !assembly.modes.iter().all(is_certified) {
-            return None;
-        }
-        let number = distinct_real(&self.prepared.layout.loop_kinds(), &assembly.modes)?;
-        // Whether a pose that is not reached is reached nearly, complex solutions tell.
-        if number == 0 && self.tolerance.is_some() {
-            return None;
-        }
-        let mut real = Assembly::default();
-        let is_proved = self.solve_real(Margin::Blur(0.0), workspace, &mut real) && real.modes.len() == number;
-        is_proved.then(|| self.of_real_zeros(assembly))
-    }
-
-    fn solve_real(&self, margin: Margin, workspace: &mut Workspace, assembly: &mut Assembly) -> bool {
-        let exact = || self.prepared.exact(&self.of.chain);
-        !self.only_lists && self.prepared.solver.solve_real(self.gap, &exact, margin, workspace, assembly)
-    }
-
-    /// The verdict on a list whose real solutions are proved to be all.
-    fn of_real_zeros(&self, assembly: &Assembly) -> Verdict {
-        let real = assembly.real();
-        let reason = format!(
-            "{real} distinct certified real solutions: the closure polynomial in a joint angle has {real} real zeros, all simple; \
-             complex solutions were not counted"
-        );
-        Verdict {
-            status: if real == 0 { Status::Unreachable } else { Status::Complete },
-            proof: Proof::Proved,
-            code: Code::RealZerosMatched,
-            complex_complete: false,
-            complex: assembly.total(),
-            real,
-            at_infinity: 0,
-            self_motion: 0,
-            certified: assembly.modes.len(),
-            reason,
-        }
-    }
-
     /// The verdict on a loop of dependent joints that has no solution modulo the prime: proved where the same combination of
     /// the closure equations is 1 over the rationals.
     fn without_solution(&self, verdict: Verdict) -> Verdict {
@@ -658,119 +595,6 @@ impl Question<'_> {
     fn has_eliminants(&self) -> bool {
         let rotations = self.prepared.layout.loop_kinds().iter().all(|kind| *kind == Variable::Rotation);
         !self.only_lists && self.roots == Roots::All && rotations && self.prepared.layout.spherical_unknown().is_none()
-    }
-
-    /// The verdict by the roots of the exact eliminants, where the one at hand is not proved, and whether that is the last
-    /// word. The list becomes that of the eliminants where these tell all solutions.
-    fn by_exact_roots(&self, verdict: Verdict, assembly: &mut Assembly) -> (Verdict, bool) {
-        // A pose out of reach has complex solutions all the same.
-        let is_final = verdict.proof.is_proved() || verdict.proof == Proof::RoundedData;
-        if is_final && verdict.complex_complete {
-            return (verdict, true);
-        }
-        let is_asked = !self.only_lists
-            && self.roots == Roots::All
-            && self.prepared.layout.spherical_unknown().is_none()
-            && self.rank() == 6;
-        if !is_asked {
-            return (verdict, false);
-        }
-        let places = distinct(&assembly.modes, &self.prepared.layout.loop_kinds());
-        let known: Vec<Known> = places.iter().map(|&k| known(&assembly.modes[k])).collect();
-        let Some(resolution) = self.resolution(&known) else { return (verdict, false) };
-        match resolution {
-            Resolution::AllKnown => {
-                assembly.modes = places.iter().map(|&k| assembly.modes[k].clone()).collect();
-                assembly.self_motion = 0;
-                (self.resolved(assembly), true)
-            }
-            Resolution::All(solutions) => {
-                let Some((closed, unit)) = self.in_f64() else { return (verdict, false) };
-                let mode = |solution: &ExactSolution| match solution {
-                    ExactSolution::Known(k) => assembly.modes[places[*k]].clone(),
-                    ExactSolution::Found { pairs, is_real, multiplicity } => {
-                        exact_mode((&closed, unit), pairs, *is_real, *multiplicity)
-                    }
-                };
-                let modes: Vec<Mode> = solutions.iter().map(mode).collect();
-                assembly.modes = modes;
-                assembly.self_motion = 0;
-                in_order(&mut assembly.modes);
-                (self.resolved(assembly), true)
-            }
-            Resolution::Finite { most } if verdict.status == Status::SelfMotion => {
-                let reason =
-                    format!("not proved: finitely many solutions, at most {most}, of which some are multiple or crowd");
-                let verdict = Verdict {
-                    status: Status::Incomplete,
-                    proof: Proof::None,
-                    code: Code::UnknownMultiplicity,
-                    complex_complete: false,
-                    self_motion: 0,
-                    reason,
-                    ..verdict
-                };
-                (verdict, false)
-            }
-            Resolution::Vanishing(free) => {
-                let verdict = if cap(assembly, free.len()) { self.judge(assembly) } else { verdict };
-                (probable(verdict, assembly), false)
-            }
-            Resolution::Finite { .. } => (probable(verdict, assembly), false),
-        }
-    }
-
-    /// Returns the resolution by the eliminants, computed again where more solutions are known than before.
-    fn resolution(&self, known: &[Known]) -> Option<Resolution> {
-        let mut last = self.resolved.borrow_mut();
-        if let Some((count, resolution)) = &*last
-            && *count == known.len()
-        {
-            return Some(resolution.clone());
-        }
-        let resolution = self.asked(known)?;
-        *last = Some((known.len(), resolution.clone()));
-        Some(resolution)
-    }
-
-    /// The verdict on a list that holds a solution for every root of an exact eliminant.
-    fn resolved(&self, assembly: &Assembly) -> Verdict {
-        let (complex, real) = (assembly.total(), assembly.real());
-        let multiple = assembly.modes.iter().filter(|mode| mode.multiplicity > 1).count();
-        let also = match multiple {
-            0 => String::new(),
-            several => format!(", {several} of them multiple"),
-        };
-        let number = assembly.modes.len();
-        let reason = format!(
-            "{number} distinct certified solutions{also}: the exact eliminants of this case have no other root that closes \
-             the loop"
-        );
-        Verdict {
-            status: if real == 0 { Status::Unreachable } else { Status::Complete },
-            proof: Proof::Proved.of_rounded(self.is_rounded()),
-            code: Code::ExactRootsMatched,
-            complex_complete: true,
-            complex,
-            real,
-            at_infinity: self.prepared.general().saturating_sub(complex),
-            self_motion: 0,
-            certified: number,
-            reason,
-        }
-    }
-
-    /// Resolves all solutions by the exact equations, where some are known.
-    fn asked(&self, known: &[Known]) -> Option<Resolution> {
-        if let Data::Field(own) = self.data() {
-            if self.leaves_fields {
-                return None;
-            }
-            let enclosed = self.prepared.enclosed(&self.of.chain, self.case).ok().flatten()?;
-            return Some(resolve(&own.exact(&self.of.chain, self.case, &enclosed)?, known));
-        }
-        let Modular::Drawn(modular) = self.modular()? else { return None };
-        Some(resolve(&OverRationals { closed: &self.exact()?, modular: &modular }, known))
     }
 
     /// The loop rounded to f64, lengths over a unit, and that unit.
@@ -810,25 +634,6 @@ fn exact_solution(case: &Case, verdict: Verdict, modes: Vec<FullMode>, prepare_u
     }
 }
 
-/// The places of modes with certificate of which no two can be the same solution.
-fn distinct(modes: &[Mode], variables: &[Variable; 6]) -> Vec<usize> {
-    let mut places: Vec<usize> = Vec::new();
-    for (k, mode) in modes.iter().enumerate() {
-        let is_simple = mode.certificate.is_some() && mode.multiplicity == 1;
-        if is_simple && places.iter().all(|&j| are_apart(variables, &modes[j], mode)) {
-            places.push(k);
-        }
-    }
-    places
-}
-
-/// A certified mode as an enclosure of its solution.
-fn known(mode: &Mode) -> Known {
-    let size = mode.unknowns.iter().map(|z| z.norm()).fold(1.0, f64::max);
-    let radius = mode.certificate.map_or(f64::INFINITY, |c| c.proved) + 4.0 * f64::EPSILON * size;
-    Known { unknowns: mode.unknowns, radius }
-}
-
 /// A loop with lengths over a power of two near the mean link: residuals and condition numbers are
 /// those of such lengths.
 fn in_unit(mut closed: ClosedLoop<f64>) -> (ClosedLoop<f64>, f64) {
@@ -838,14 +643,6 @@ fn in_unit(mut closed: ClosedLoop<f64>) -> (ClosedLoop<f64>, f64) {
         motion.translation = motion.translation.map(|x| x / unit);
     }
     (closed, unit)
-}
-
-/// Real modes first, then by their unknowns.
-fn in_order(modes: &mut [Mode]) {
-    modes.sort_by(|a, b| {
-        let key = |m: &Mode| m.unknowns.map(|z| (z.re, z.im));
-        b.real.cmp(&a.real).then_with(|| key(a).partial_cmp(&key(b)).unwrap_or(std::cmp::Ordering::Equal))
-    });
 }
 
 /// The way to solve a loop, prepared.

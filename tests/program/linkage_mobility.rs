@@ -156,3 +156,45 @@ fn five_rods_and_a_ball_leave_what_their_count_says() {
     let (code, found) = document(&written("three_rods.toml", &format!("{head}{third}{rest}")));
     assert_eq!((code, &found["mobility"], &found["gruebler"]), (3, &0.into(), &0.into()), "{found}");
 }
+
+/// Two shafts joined by a rod, the half-angle tangents of which have the ratio 2 along one of two components.
+fn shafts(name: &str, axis: &str) -> Value {
+    let text = format!(
+        "[mechanism]\nkind = \"linkage\"\nspace = \"space\"\nground = \"house\"\njoints = [\n\
+         {{ name = \"S0\", type = \"R\", of = [\"house\", \"in\"], axis = [0, 0, 1] }},\n\
+         {{ name = \"rod\", type = \"SS\", of = [\"in\", \"out\"], length = \"sqrt(722/81)\" }},\n\
+         {{ name = \"S1\", type = \"R\", of = [\"house\", \"out\"], axis = {axis} }},\n]\n\
+         [mechanism.bodies]\nhouse = {{ S0 = [0, 0, 0], S1 = [\"1/9\", 2, \"17/9\"] }}\n\
+         in = {{ S0 = [0, 0, 0], rod = [1, 0, 0] }}\nout = {{ S1 = [\"1/9\", 2, \"17/9\"], rod = [\"4/9\", \"8/3\", \"11/9\"] }}\n\
+         [configuration]\nin = {{}}\nout = {{}}\n"
+    );
+    document(&written(name, &text)).1
+}
+
+#[test]
+fn shafts_turn_alike_or_not_however_long_their_axes_are_written() {
+    for (name, axis) in [("double.toml", r#"["4/3", "-4/3", "-2/3"]"#), ("unit.toml", r#"["2/3", "-2/3", "-1/3"]"#)] {
+        let found = shafts(name, axis);
+        assert_eq!((&found["mobility"], &found["proof"]), (&1.into(), &"proved".into()), "{found}");
+        assert!(found["shafts"].as_array().is_none_or(Vec::is_empty), "{found}");
+    }
+    // The two shafts of a homokinetic coupling, one axis written twice as long.
+    let file = Path::new(super::ROOT).join("equations/linkage/clemens_coupling.toml");
+    let text = fs::read_to_string(file).unwrap();
+    let longer = text.replace(r#"axis = ["-4/5", "3/5", 0]"#, r#"axis = ["-8/5", "6/5", 0]"#);
+    assert_ne!(text, longer);
+    let [(_, one), (_, two)] = [text, longer].map(|text| document(&written("clemens.toml", &text)));
+    assert!(one["shafts"].as_array().is_some_and(|shafts| !shafts.is_empty()), "{one}");
+    assert_eq!(one["shafts"], two["shafts"]);
+}
+
+#[test]
+fn a_gap_below_all_numbers_is_one() {
+    let text = "[mechanism]\nkind = \"linkage\"\nspace = \"space\"\nground = \"g\"\njoints = [\n\
+                { name = \"A\", type = \"R\", of = [\"g\", \"a\"], axis = [0, 0, 1] },\n\
+                { name = \"B\", type = \"SS\", of = [\"g\", \"a\"], length = 2 },\n]\n\
+                [mechanism.bodies]\ng = { A = [0, 0, 0], B = [3, 0, 0] }\n\
+                a = { A = [0, 0, 0], B = [\"1 - 1e-149*1e-149*1e-100\", 0, 0] }\n[configuration]\na = {}\n";
+    let (_, found) = document(&written("gap.toml", text));
+    assert_eq!(found["proof"], "none", "{found}");
+}

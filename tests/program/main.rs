@@ -16,6 +16,7 @@ mod mobility_verb;
 mod motion;
 mod navigation;
 mod poly;
+mod real_list;
 mod robots;
 mod scene;
 mod sweep;

@@ -71,3 +71,26 @@ fn polygons_that_do_not_tile() {
         assert!(reason.contains(part), "{name}: {reason}");
     }
 }
+
+#[test]
+fn the_turns_of_slits_are_counted_however_small_they_are() {
+    // A square with slits at two corners: the angles round the one point of the tiling are three whole turns.
+    let off = |size: &str, x: &str, factor: &str| format!("\"{x} + ({factor})*{size}\"");
+    for (name, size) in [("wide", "1e-10"), ("thin", "1e-149*1e-149")] {
+        let at = |x: &str, fx: &str, y: &str, fy: &str| format!("[{}, {}]", off(size, x, fx), off(size, y, fy));
+        let d = "1/100000000";
+        let corners = [
+            "[1, 1]".to_owned(),
+            "[5, 1]".to_owned(),
+            at("5", "-1", "1", "1"),
+            at("5", d, "1", d),
+            at("5", d, "5", d),
+            at("1", d, "5", d),
+            at("1", "100000001/100000000", "5", "-99999999/100000000"),
+            "[1, 5]".to_owned(),
+        ];
+        let found = solved(name, &format!("[{}]", corners.join(", ")), "[[1, 5], [2, 6], [3, 7], [4, 8]]", "[]");
+        assert!(found["modes"].as_array().is_none_or(Vec::is_empty), "{name}: {found}");
+        assert!(found["verdict"]["reason"].as_str().unwrap().contains("3.000000 of a turn"), "{name}: {found}");
+    }
+}

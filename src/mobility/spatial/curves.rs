@@ -90,14 +90,28 @@ pub(super) fn shafts(
         if found.iter().any(|(other, _)| *other == joints) {
             continue;
         }
-        // A curve of degree `most` in either variable meets another line u = v or u = -v in twice as many points at most.
+        // The angles are equal where u = f v, f being the ratio of the lengths of the axes as they are written. A curve of rational
+        // series is never that of an irrational f.
+        let Some(factor) = ratio(&own.variables[b].square, &own.variables[a].square) else { continue };
+        // A curve of degree `most` in either variable meets another line u = f v or u = -f v in twice as many points at most.
         let Some(curve) = curve(&own, a, 2 * most + 1) else { continue };
         let (first, second) = (&curve.values[a], &curve.values[b]);
-        let is_same = first == second;
-        let is_opposite = first.iter().zip(second).all(|(x, y)| *x == Rational::from(-y));
+        let pairs = || first.iter().zip(second).map(|(x, y)| (x, Rational::from(y * &factor)));
+        let is_same = pairs().all(|(x, y)| *x == y);
+        let is_opposite = pairs().all(|(x, y)| *x == Rational::from(-y));
         if is_same || is_opposite {
             found.push((joints, is_opposite));
         }
     }
     found
+}
+
+/// Returns the square root of the ratio of two squares; `None` where it is irrational.
+fn ratio(square: &Rational, other: &Rational) -> Option<Rational> {
+    if *other == 0 {
+        return None;
+    }
+    let (numerator, denominator) = Rational::from(square / other).into_numer_denom();
+    let is_square = numerator.is_perfect_square() && denominator.is_perfect_square();
+    is_square.then(|| Rational::from((numerator.sqrt(), denominator.sqrt())))
 }

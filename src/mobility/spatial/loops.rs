@@ -25,6 +25,8 @@ pub(super) struct Variable {
     pub(super) joint: usize,
     /// Whether the joint has no other one.
     pub(super) is_single: bool,
+    /// The square of the length of its line's direction: the variable is the tangent of half an angle over that length.
+    pub(super) square: Rational,
 }
 
 /// The loops of a linkage.
@@ -67,7 +69,10 @@ impl System {
         let mut first = Vec::new();
         for (joint, (_, freedoms)) in joints.iter().enumerate() {
             first.push(variables.len());
-            variables.extend(freedoms.iter().map(|_| Variable { joint, is_single: freedoms.len() == 1 }));
+            variables.extend(freedoms.iter().map(|freedom| {
+                let square = freedom.iter().take(1).flat_map(|line| &line.direction).map(|c| Rational::from(c * c)).sum();
+                Variable { joint, is_single: freedoms.len() == 1, square }
+            }));
         }
         // A tree of the shortest ways to the ground: of every body the joint that leads there.
         let mut way: Vec<Option<Vec<(usize, bool)>>> = vec![None; bodies];

@@ -52,9 +52,11 @@ pub fn space_mobility(file: &SpaceFile) -> Result<LinkageMobility> {
     let places = |joint: usize| linkage.joints[joint].of.map(|body| &at.places[body]);
     let mut list = Vec::new();
     let mut gap = (0.0, 0);
+    let mut is_closed = true;
     let mut size = 1.0_f64;
     for (k, joint) in linkage.joints.iter().enumerate() {
         let open = conditions(joint, places(k), Rational::clone);
+        is_closed &= open.iter().all(|c| *c == 0);
         let worst = open.iter().map(|c| nearest_f64(c).abs()).fold(0.0, f64::max);
         if worst > gap.0 {
             gap = (worst, k);
@@ -83,7 +85,7 @@ pub fn space_mobility(file: &SpaceFile) -> Result<LinkageMobility> {
         system: System::of(linkage.bodies.len(), linkage.ground, &list, 6),
         gruebler,
         is_exact: file.exact && at.exact,
-        is_closed: gap.0 == 0.0,
+        is_closed,
         is_shaft: &is_shaft,
         most: &most,
         name: &name,
@@ -104,15 +106,17 @@ pub fn sphere_mobility(file: &SphereFile) -> Result<LinkageMobility> {
         let found = sphere::solve(linkage, &case.given, file.exact && case.exact)?;
         let simple = found.modes.iter().any(|mode| mode.real && mode.multiplicity == 1);
         let proof = found.verdict.proof.is_proved();
-        // The equations of a single loop are dependent where all its axes lie in one plane, in finitely many assemblies.
+        // The equations of a single loop are dependent where all its axes lie in one plane; these assemblies move in no more dimensions.
         let ring = (linkage.joints.len() == linkage.bodies.len()).then_some("whose axes all lie in one plane");
         return Ok(somewhere(gruebler, held, simple && proof, ring));
     };
     let centre = std::array::from_fn(|_| Rational::new());
     let mut list: Vec<([usize; 2], Vec<Freedom>)> = Vec::new();
     let mut gap = (0.0, 0);
+    let mut is_closed = true;
     for (k, joint) in linkage.joints.iter().enumerate() {
         let [u, v] = [0, 1].map(|side| at.places[joint.of[side]].rotate(&joint.at[side]));
+        is_closed &= u == v;
         let off = (0..3).map(|i| Rational::from(&u[i] - &v[i]));
         let worst = off.map(|c| nearest_f64(&c).abs()).fold(0.0, f64::max);
         if worst > gap.0 {
@@ -128,7 +132,7 @@ pub fn sphere_mobility(file: &SphereFile) -> Result<LinkageMobility> {
         system: System::of(linkage.bodies.len(), linkage.ground, &list, 3),
         gruebler,
         is_exact: file.exact && at.exact,
-        is_closed: gap.0 == 0.0,
+        is_closed,
         is_shaft: &is_shaft,
         most: &most,
         name: &name,
@@ -150,7 +154,7 @@ fn somewhere(gruebler: i64, held: i64, is_simple: bool, ring: Option<&str>) -> L
     );
     let (proof, code, reason) = match (is_regular, ring) {
         (true, Some(ring)) => {
-            let reason = format!("{manifold}; the equations of a single loop are dependent in assemblies only {ring}, finitely many, so that none has more");
+            let reason = format!("{manifold}; the equations of a single loop are dependent in assemblies only {ring}, which move in no more dimensions");
             (Proof::Proved, Code::RegularConfiguration, reason)
         }
         (true, None) => {
