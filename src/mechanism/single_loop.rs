@@ -424,7 +424,10 @@ impl Question<'_> {
         };
         let (rank, general) = (self.rank(), self.prepared.general());
         let here = || if self.only_lists { None } else { self.count_here(assembly.total()) };
-        let verdict = verdict(assembly, self.roots, rank, general, everywhere, here, solver.too_far(self.gap));
+        // What misses the pose by less than the tolerance is near.
+        let is_beyond = |(gap, links): &(f64, f64)| self.tolerance.is_none_or(|own| gap - links > own.length + own.angle * links);
+        let too_far = solver.too_far(self.gap).filter(is_beyond);
+        let verdict = verdict(assembly, self.roots, rank, general, everywhere, here, too_far);
         // Incidences of rounded axes may be those of the rounded numbers only.
         let is_of_axes = verdict.code == Code::GeometryBoundMet;
         let is_rounded = is_of_axes && self.prepared.data(&self.of.chain).is_rounded();
