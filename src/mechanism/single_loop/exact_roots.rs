@@ -1,12 +1,12 @@
 //! Verdicts by the roots of the exact eliminants, where f64 does not prove a list.
 
-use super::super::data::{Data, Modular};
-use super::super::exact_modes::exact_mode;
-use super::super::unproved::{cap, probable};
 use super::{ExactSolution, Question};
 use crate::assembly::{Assembly, Mode, Roots, are_apart};
 use crate::exact::{Known, OverRationals, Resolution, resolve};
 use crate::kinematics::closed_loop::Variable;
+use crate::mechanism::data::{Data, Modular};
+use crate::mechanism::exact_modes::exact_mode;
+use crate::mechanism::unproved::{cap, probable};
 use crate::verdict::{Code, Proof, Status, Verdict};
 
 impl Question<'_> {

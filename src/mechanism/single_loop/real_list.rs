@@ -1,12 +1,12 @@
 //! Lists of real solutions that the zeros of a determinant prove to be complete.
 
-use super::super::unproved::is_settled;
 use super::Question;
 use crate::assembly::{Assembly, Margin, Mode, Workspace, distinct_real};
+use crate::mechanism::unproved::is_settled;
 use crate::verdict::{Code, Proof, Status, Verdict};
 
 /// Where the closure polynomial comes nearer to a double zero than this, in parts of its largest value and of the tolerance, a
-/// configuration may be near the pose: its value changed by up to 3000 times what poses did, in 200 arms.
+/// configuration may be near the pose: in parts of the largest one, values changed by up to 3000 times what poses did, as measured.
 const NEAR: f64 = 3000.0;
 
 impl Question<'_> {
