@@ -5,7 +5,9 @@ use crate::certify::closure_zeros::EnclosedRows;
 use crate::closure::half_angle::HalfAngleForm;
 use crate::closure::woernle_lee::MarkedLine;
 use crate::elimination::cut::Cut;
+use crate::elimination::pencil::before_second_link;
 use crate::kinematics::closed_loop::ClosedLoop;
+use crate::kinematics::motion::Motion;
 use std::sync::OnceLock;
 
 /// A cut whose elimination does not depend on the pose.
@@ -18,8 +20,9 @@ pub(super) struct PreparedCut {
 }
 
 impl PreparedCut {
-    /// Prepares a cut.
-    pub fn new(cut: Cut, form: HalfAngleForm<f64>, rows: Option<[MarkedLine<f64>; 8]>) -> Self {
+    /// Prepares a cut, whose form is carried over `second` where that constant is free of the pose.
+    pub fn new(cut: Cut, form: HalfAngleForm<f64>, second: Option<&Motion<f64>>) -> Self {
+        let rows = second.map(|second| before_second_link(&form, second));
         Self { cut, form, rows, enclosed: OnceLock::new() }
     }
 

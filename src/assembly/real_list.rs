@@ -51,6 +51,7 @@ impl Search<'_> {
 }
 
 /// Returns the number of real modes in a list; `None` where one of them is not certified, or not apart from all others.
+#[must_use]
 pub fn distinct_real(variables: &[Variable; 6], modes: &[Mode]) -> Option<usize> {
     let real: Vec<&Mode> = modes.iter().filter(|mode| mode.real).collect();
     let is_simple = |k: usize| {

@@ -160,8 +160,8 @@ impl Solver {
                 let form = half_angle_form(&view)?;
                 // The closing transformation is constant 6 of the original loop.
                 let free = cut.constant_index(1) != 5;
-                let rows = free.then(|| before_second_link(&form, &view.constants[1]));
-                (form.score > limits::SCORE).then(|| PreparedCut::new(cut, form, rows))
+                let second = free.then_some(&view.constants[1]);
+                (form.score > limits::SCORE).then(|| PreparedCut::new(cut, form, second))
             })
             .collect();
         prepared.sort_by(|a, b| b.form.score.total_cmp(&a.form.score));

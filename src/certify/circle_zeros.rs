@@ -115,6 +115,7 @@ fn power(p: usize, q: usize, end: DoubleDouble) -> [Long; SIZE] {
 }
 
 /// Returns cosine and sine of the angle of every sample, each within [`SAMPLE_ERROR`].
+#[must_use]
 pub fn samples() -> &'static [(f64, f64); SAMPLES] {
     &TABLES.samples
 }
@@ -128,6 +129,7 @@ pub struct Zeros {
 
 impl Zeros {
     /// Returns an angle near each zero.
+    #[must_use]
     pub fn angles(&self) -> &[f64] {
         &self.angles[..self.count]
     }
@@ -192,6 +194,7 @@ impl Piece {
 
 /// Returns all zeros of a trigonometric polynomial of degree 8 that has these values at [`samples`], each off by at most its error;
 /// `None` where zeros crowd or may be multiple.
+#[must_use]
 pub fn zeros(values: &[f64; SAMPLES], errors: &[f64; SAMPLES]) -> Option<Zeros> {
     if !values.iter().chain(errors).all(|x| x.is_finite()) {
         return None;
@@ -304,8 +307,8 @@ mod tests {
             let apart = |a: f64, b: f64| (0.5 * (a - b)).sin().abs();
             let is_apart = (0..number).all(|i| (0..i).all(|j| apart(angles[i], angles[j]) > 0.02));
             let f = |q: f64| {
-                let rest = (DEGREE - number / 2) as i32;
-                angles.iter().map(|a| (0.5 * (q - a)).sin()).product::<f64>() * (1.5 + q.cos()).powi(rest)
+                let rest = (number / 2..DEGREE).map(|_| 1.5 + q.cos()).product::<f64>();
+                angles.iter().map(|a| (0.5 * (q - a)).sin()).product::<f64>() * rest
             };
             let found = zeros(&values(f), &[1e-13; SAMPLES]);
             if !is_apart {

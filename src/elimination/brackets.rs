@@ -87,8 +87,8 @@ mod tests {
 
     #[test]
     fn brackets_give_the_determinant() {
-        for seed in 1..20_i64 {
-            let entry = |l: usize, e: usize| Integer::from((seed * 7919 + (l * 4 + e + 1) as i64 * 104_729) % 23 - 11);
+        for seed in 1..20_usize {
+            let entry = |l: usize, e: usize| Integer::from((seed * 7919 + (l * 4 + e + 1) * 104_729) % 23) - 11;
             let columns: [[Integer; 4]; 6] =
                 std::array::from_fn(|l| std::array::from_fn(|e| entry(l, e) * Integer::from(l + 2 * e + 1) % Integer::from(17)));
             let own = determinant(&columns);

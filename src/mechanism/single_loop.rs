@@ -11,6 +11,7 @@ use super::dependence::dependent;
 use super::exact_loop::{SsDyadQuestion, Question as ExactQuestion};
 use super::vicinity::Vicinity;
 use super::{FullMode, Solution};
+use real_list::of_real_zeros;
 use crate::algebra::double_double::DoubleDouble;
 use crate::algebra::drawn::{self, Drawn};
 use crate::algebra::enclosure::Enclosure;
@@ -166,13 +167,7 @@ impl SingleLoop {
             Way::SphericalPair(spherical_joints) => return self.solve_ss_dyad(spherical_joints, *prepare_us, case, roots, workspace, assembly),
         };
         let solver = &prepared.solver;
-        let float = case.pose.as_ref().and_then(Placement::inverse_in_f64);
-        let mut gap = solver.gap(&float.clone().map_or_else(|| closing_transformation(case), Ok)?);
-        // Irrational numbers of a pose are enclosed: the rationals in their place have the digits that are printed.
-        if gap.is_rough() || float.is_none() && !is_rational(case) {
-            let closed = prepared.enclosed(&self.chain, case)?.and_then(|closed| closed.rounded(f64::MANTISSA_DIGITS));
-            gap = closed.map_or(gap, |ClosedLoop { constants: [.., last], .. }| solver.exact_gap(&last));
-        }
+        let gap = self.gap(prepared, case)?;
         let question = Question {
             of: self,
             prepared,
@@ -210,28 +205,17 @@ impl SingleLoop {
                 known => known,
             };
             match exact.map(|(exact, modes)| (exact.status, exact, modes)) {
-                None => {}
                 Some((Status::SelfMotion, exact, _)) => {
-                    let rest = "the isolated ones are listed, not proved complete";
-                    let is_alike = exact.self_motion == verdict.self_motion;
-                    let reason = match (verdict.status, solver.structural_rank()) {
-                        (Status::SelfMotion, rank) if rank < 6 && is_alike => {
-                            format!("{}; {}; {rest}", verdict.reason, exact.reason)
-                        }
-                        (Status::SelfMotion, _) => format!("{}; {rest}", exact.reason),
-                        _ => format!("{}; no real curve was found; {rest}", exact.reason),
-                    };
-                    verdict = Verdict { reason, ..moving(&exact, verdict) };
+                    verdict = moving(&exact, &verdict, solver.structural_rank());
                     for family in &mut assembly.families {
                         family.dimension = family.dimension.min(exact.self_motion);
                     }
                 }
                 // Finitely many solutions, but not which. What f64 takes for a self-motion is near the pose.
-                Some((Status::Incomplete, exact, _)) => {
-                    if verdict.status == Status::SelfMotion {
-                        verdict = not_moving(&exact, verdict);
-                    }
+                Some((Status::Incomplete, exact, _)) if verdict.status == Status::SelfMotion => {
+                    verdict = not_moving(&exact, &verdict);
                 }
+                None | Some((Status::Incomplete, ..)) => {}
                 Some((_, exact, modes)) if case.pose.is_none() => {
                     return Ok(exact_solution(case, exact, modes, *prepare_us, start));
                 }
@@ -274,6 +258,20 @@ impl SingleLoop {
             solve_us,
             platform: None,
         })
+    }
+
+    /// The closing transformation of a case in f64.
+    fn gap(&self, prepared: &SixUnknowns, case: &Case) -> Result<Gap> {
+        let solver = &prepared.solver;
+        let float = case.pose.as_ref().and_then(Placement::inverse_in_f64);
+        let is_exact = float.is_some() || is_rational(case);
+        let gap = solver.gap(&float.map_or_else(|| closing_transformation(case), Ok)?);
+        // Irrational numbers of a pose are enclosed: the rationals in their place have the digits that are printed.
+        if is_exact && !gap.is_rough() {
+            return Ok(gap);
+        }
+        let closed = prepared.enclosed(&self.chain, case)?.and_then(|closed| closed.rounded(f64::MANTISSA_DIGITS));
+        Ok(closed.map_or(gap, |ClosedLoop { constants: [.., last], .. }| solver.exact_gap(&last)))
     }
 
     /// The answer to a loop with a spherical joint over the rationals; `None` where rounded data may hide what there is, and
@@ -512,7 +510,7 @@ impl Question<'_> {
         let SixUnknowns { solver, .. } = self.prepared;
         let is_first = self.real_first || self.roots == Roots::Real;
         if is_first && self.has_real_list(workspace, assembly) {
-            return self.of_real_zeros(assembly);
+            return of_real_zeros(assembly);
         }
         if self.has_eliminants() {
             if self.only_real_list && !solver.is_decoupled() {
@@ -525,7 +523,7 @@ impl Question<'_> {
                     }
                 }
                 if self.has_real_list(workspace, assembly) {
-                    return self.of_real_zeros(assembly);
+                    return of_real_zeros(assembly);
                 }
             }
             solver.solve_by_pencils(self.gap, &most, workspace, assembly);

@@ -14,16 +14,23 @@ pub(super) fn is_left_to_equations(verdict: &Verdict) -> bool {
     verdict.proof == Proof::None && verdict.code != Code::OnlyReal
 }
 
-/// The verdict on a self-motion that is proved, beside a list that is as it was found.
-pub(super) fn moving(exact: &Verdict, found: Verdict) -> Verdict {
+/// The verdict on a self-motion that the closure equations decide, beside a list that is as it was found.
+pub(super) fn moving(exact: &Verdict, found: &Verdict, structural_rank: usize) -> Verdict {
+    let rest = "the isolated ones are listed, not proved complete";
+    let is_alike = exact.self_motion == found.self_motion;
+    let reason = match found.status {
+        Status::SelfMotion if structural_rank < 6 && is_alike => format!("{}; {}; {rest}", found.reason, exact.reason),
+        Status::SelfMotion => format!("{}; {rest}", exact.reason),
+        _ => format!("{}; no real curve was found; {rest}", exact.reason),
+    };
     let Verdict { status, proof, code, self_motion, .. } = *exact;
-    Verdict { status, proof, code, self_motion, complex_complete: false, ..found }
+    Verdict { status, proof, code, self_motion, complex_complete: false, reason, ..found.clone() }
 }
 
 /// The verdict on a self-motion that was measured, where there are finitely many solutions.
-pub(super) fn not_moving(finite: &Verdict, found: Verdict) -> Verdict {
-    let Verdict { status, proof, code, .. } = *finite;
-    Verdict { status, proof, code, self_motion: 0, complex_complete: false, reason: finite.reason.clone(), ..found }
+pub(super) fn not_moving(finite: &Verdict, found: &Verdict) -> Verdict {
+    let Verdict { status, proof, code, ref reason, .. } = *finite;
+    Verdict { status, proof, code, self_motion: 0, complex_complete: false, reason: reason.clone(), ..found.clone() }
 }
 
 /// Returns the verdict, `incomplete` where it denies every real solution and nothing proves that.

@@ -186,6 +186,11 @@ impl Ring for Magnitude {
 mod tests {
     use super::*;
 
+    fn formula<R: Ring>([a, b, c, d]: &[R; 4]) -> R {
+        let sum = a.mul(b).sub(&c.mul(d)).mul(&a.add(c));
+        sum.mul(&sum).sub(&b.mul(&d.sub(a)).mul(c))
+    }
+
     #[test]
     fn errors_are_bounded() {
         // A product of differences with cancellation, against exact arithmetic.
@@ -196,10 +201,6 @@ mod tests {
                 Rational::from(((state >> 33) % 2_000_001 - 1_000_000, 999_983))
             };
             let numbers: [Rational; 4] = std::array::from_fn(|_| next());
-            fn formula<R: Ring>([a, b, c, d]: &[R; 4]) -> R {
-                let sum = a.mul(b).sub(&c.mul(d)).mul(&a.add(c));
-                sum.mul(&sum).sub(&b.mul(&d.sub(a)).mul(c))
-            }
             let exact = formula(&numbers);
             let checked = |value: Rational, error: f64| (value - &exact).abs() <= Rational::from_f64(error).unwrap();
             let short = numbers.each_ref().map(|q| Bounded::<f64>::from_rational(q).unwrap());

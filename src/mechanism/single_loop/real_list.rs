@@ -40,32 +40,32 @@ impl Question<'_> {
         }
         let mut real = Assembly::default();
         let is_proved = self.solve_real(Margin::Blur(0.0), workspace, &mut real) && real.modes.len() == number;
-        is_proved.then(|| self.of_real_zeros(assembly))
+        is_proved.then(|| of_real_zeros(assembly))
     }
 
     pub(super) fn solve_real(&self, margin: Margin, workspace: &mut Workspace, assembly: &mut Assembly) -> bool {
         let exact = || self.prepared.exact(&self.of.chain);
         !self.only_lists && self.prepared.solver.solve_real(self.gap, &exact, margin, workspace, assembly)
     }
+}
 
-    /// The verdict on a list whose real solutions are proved to be all.
-    pub(super) fn of_real_zeros(&self, assembly: &Assembly) -> Verdict {
-        let real = assembly.real();
-        let reason = format!(
-            "{real} distinct certified real solutions: the closure polynomial in a joint angle has {real} real zeros, all simple; \
-             complex solutions were not counted"
-        );
-        Verdict {
-            status: if real == 0 { Status::Unreachable } else { Status::Complete },
-            proof: Proof::Proved,
-            code: Code::RealZerosMatched,
-            complex_complete: false,
-            complex: assembly.total(),
-            real,
-            at_infinity: 0,
-            self_motion: 0,
-            certified: assembly.modes.len(),
-            reason,
-        }
+/// The verdict on a list whose real solutions are proved to be all.
+pub(super) fn of_real_zeros(assembly: &Assembly) -> Verdict {
+    let real = assembly.real();
+    let reason = format!(
+        "{real} distinct certified real solutions: the closure polynomial in a joint angle has {real} real zeros, all simple; \
+         complex solutions were not counted"
+    );
+    Verdict {
+        status: if real == 0 { Status::Unreachable } else { Status::Complete },
+        proof: Proof::Proved,
+        code: Code::RealZerosMatched,
+        complex_complete: false,
+        complex: assembly.total(),
+        real,
+        at_infinity: 0,
+        self_motion: 0,
+        certified: assembly.modes.len(),
+        reason,
     }
 }

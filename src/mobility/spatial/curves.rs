@@ -98,7 +98,7 @@ pub(super) fn shafts(
         let (first, second) = (&curve.values[a], &curve.values[b]);
         let pairs = || first.iter().zip(second).map(|(x, y)| (x, Rational::from(y * &factor)));
         let is_same = pairs().all(|(x, y)| *x == y);
-        let is_opposite = pairs().all(|(x, y)| *x == Rational::from(-y));
+        let is_opposite = pairs().all(|(x, y)| *x == -y);
         if is_same || is_opposite {
             found.push((joints, is_opposite));
         }
