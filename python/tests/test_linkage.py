@@ -56,5 +56,5 @@ def test_a_linkage_on_the_sphere() -> None:
     s = linkage.solve()
     assert s.verdict.complex == 8 and s.bodies is not None
     assert all(np.allclose(np.linalg.norm(places, axis=1), 1) for places in s.bodies.values())
-    with pytest.raises(lr.UnsupportedError):
-        linkage.mobility()
+    found = linkage.mobility()
+    assert (found["mobility"], found["gruebler"]) == (3, 3)
