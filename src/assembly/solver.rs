@@ -119,8 +119,6 @@ pub struct Workspace {
     pub platform_assembly: PlatformAssembly,
     /// Whether a list counts as complete once its real solutions are, though complex ones may be missing.
     pub only_real_list: bool,
-    /// Whether real solutions are looked for first, and complex ones only where these are not proved to be all.
-    pub real_first: bool,
     /// Whether clustered solutions are listed without a proof of completeness if the numbers lie in a number field, where
     /// that proof takes seconds.
     pub leaves_fields: bool,

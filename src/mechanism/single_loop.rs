@@ -176,7 +176,6 @@ impl SingleLoop {
             leaves_fields: workspace.leaves_fields,
             only_lists: workspace.only_lists,
             only_real_list: workspace.only_real_list || roots == Roots::Real,
-            real_first: workspace.real_first,
             tolerance: case.pose.is_some().then_some(tolerance),
             gap: &gap,
             by_cuts: OnceCell::new(),
@@ -362,8 +361,6 @@ struct Question<'a> {
     only_lists: bool,
     /// Whether a list counts as complete once its real solutions are.
     only_real_list: bool,
-    /// As in [`Workspace::real_first`].
-    real_first: bool,
     /// The tolerance of a pose.
     tolerance: Option<Tolerance>,
     gap: &'a Gap,
@@ -508,8 +505,7 @@ impl Question<'_> {
             if self.only_lists { self.prepared.general() } else { self.prepared.bound(&self.of.chain, known).count }
         };
         let SixUnknowns { solver, .. } = self.prepared;
-        let is_first = self.real_first || self.roots == Roots::Real;
-        if is_first && self.has_real_list(workspace, assembly) {
+        if self.roots == Roots::Real && self.has_real_list(workspace, assembly) {
             return of_real_zeros(assembly);
         }
         if self.has_eliminants() {
