@@ -211,13 +211,16 @@ fn input(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Case> {
     Ok(Case { expected, warnings: scope.take_warnings(), ..Case::given(Input { joint, value }, table.line()) })
 }
 
-/// Reads the claims beside a case or at the top of the file; `claim` reads their solutions.
+/// Reads the claims beside a case or at the top of the file, if they are wanted; `claim` reads their solutions.
 pub(super) fn expected(
     scope: &Scope<'_>,
     table: &Table<'_>,
     claim: &dyn Fn(&Scope<'_>, &Node) -> Result<Claim>,
 ) -> Result<Expected> {
     let mut expected = Expected::default();
+    if !scope.claims {
+        return Ok(expected);
+    }
     if let Some(node) = table.get("expected") {
         let claims = scope.table(node, "[expected]", &["complex", "real", "dimension", "mobility", "screw_rank"])?;
         let count = |key: &str| claims.get(key).map(|node| scope.count(node, key)).transpose();

@@ -27,6 +27,8 @@ pub struct Options {
     pub chains: Chains,
     /// URDF and DH tables: whether truncated multiples of pi are replaced by the exact angles.
     pub snap: bool,
+    /// Whether claims about solutions are read.
+    pub claims: bool,
     /// URDF: the SRDF file and the planning group in it that name the chain.
     pub group: Option<(std::path::PathBuf, String)>,
 }
@@ -34,6 +36,14 @@ pub struct Options {
 impl Default for Options {
     /// Returns 15 digits, no links named, chains that can be solved.
     fn default() -> Self {
-        Self { digits: DIGITS, base_link: None, tip_link: None, chains: Chains::Solved, snap: false, group: None }
+        Self {
+            digits: DIGITS,
+            base_link: None,
+            tip_link: None,
+            chains: Chains::Solved,
+            snap: false,
+            claims: true,
+            group: None,
+        }
     }
 }

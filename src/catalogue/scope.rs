@@ -15,6 +15,8 @@ pub(super) struct Scope<'a> {
     pub(super) reading: Reading,
     /// The chains that are accepted.
     pub(super) chains: Chains,
+    /// Whether claims about solutions are read.
+    pub(super) claims: bool,
     /// Whether some value had to be rounded to a rational.
     rounded: Cell<bool>,
     /// Warnings about the placements read since they were last taken.
@@ -38,6 +40,7 @@ impl<'a> Scope<'a> {
             path,
             reading,
             chains: Chains::Solved,
+            claims: true,
             rounded: Cell::new(false),
             warnings: RefCell::default(),
             snap: false,

@@ -222,6 +222,7 @@ fn prepared<'a>(text: &'a str, path: &'a str, options: &Options) -> Result<(&'a 
     let reading = Reading { digits: options.digits, ..Reading::default() };
     let mut scope = Scope::new(path, reading);
     scope.chains = options.chains;
+    scope.claims = options.claims;
     scope.snap = options.snap;
     Ok((text, name, scope))
 }

@@ -3,10 +3,12 @@
 mod branch;
 pub mod closure_identity;
 pub mod component;
+pub mod composed;
 pub mod configurations;
 pub mod curve_ansatz;
 pub mod decide;
 mod degenerate;
+pub mod examples;
 pub mod family;
 pub mod finite_field;
 mod fit;

@@ -1,5 +1,7 @@
 //! All methods for a 5R or 6R loop with symbols, and their results.
 
+use super::composed::Composed;
+use super::examples::{Example, examples};
 use super::curve_ansatz::{Curve, rational_curves};
 use super::family::{Family, family};
 use super::formulas::{Formulas, formulas};
@@ -151,6 +153,10 @@ pub struct Search {
     pub slices: usize,
     /// The mobile slices.
     pub mobile_slices: Vec<MobileSlice>,
+    /// The families made of Bennett loops, if all parameters are symbols.
+    pub composed: Vec<Composed>,
+    /// Loops of the library that may belong to the families, if all parameters are symbols.
+    pub examples: Vec<Example>,
     /// The curve ansatz, for five joints.
     pub curves: Option<CurveSearch>,
     /// The sweep and fit, if a length is unknown.
@@ -208,8 +214,10 @@ pub fn search(ansatz: &Ansatz, seed: u64) -> Result<Search> {
     let member = held.or(member);
     let modular = as_it_is.then(|| modular_members(ansatz, &[], MEMBERS, seed));
     let proof = if as_it_is { FamilyProof::of_all(ansatz, seed) } else { None };
+    let (composed, examples) =
+        if is_special { (Vec::new(), Vec::new()) } else { (Composed::all(joints), examples(joints)) };
     let patterns = if is_special { patterns(ansatz, &mobile_slices) } else { Vec::new() };
-    Ok(Search { slices: looked_at, mobile_slices, curves, fitted, member, modular, proof, patterns })
+    Ok(Search { slices: looked_at, mobile_slices, composed, examples, curves, fitted, member, modular, proof, patterns })
 }
 
 impl Fitted {

@@ -29,7 +29,7 @@ pub use equation::Equation;
 pub use interpolation::Watch;
 pub use linkage::{
     Coordinate, Curve, GroupPolynomial, InputOutput, LinkageDerivation, LinkageSymbolic, Symbol, derive_linkage, derive_linkage_with_symbols,
-    in_cosines, trace, trace_mass,
+    in_cosines, relation_by_values, trace, trace_mass,
 };
 pub use polynomial::{ClosurePolynomial, Removed, Root};
 pub use pose::RootPose;

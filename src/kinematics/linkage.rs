@@ -139,6 +139,33 @@ pub enum Given {
 }
 
 impl Given {
+    /// Returns the joint whose value is given; `None` of a place.
+    #[must_use]
+    pub fn joint(&self) -> Option<usize> {
+        match self {
+            Self::Turn { joint, .. } | Self::Shift { joint, .. } => Some(*joint),
+            Self::Place { .. } => None,
+        }
+    }
+
+    /// Returns the same joint with another value: the half-angle tangent of a rotation, or metres. `None` of a place.
+    #[must_use]
+    pub fn at(&self, linkage: &Linkage, value: &Rational) -> Option<Self> {
+        match self {
+            Self::Turn { joint, line, .. } => {
+                let square = Rational::from(value.square_ref());
+                let below = Rational::from(1 + &square);
+                let turn = Gaussian { re: Rational::from(1 - square) / &below, im: Rational::from(value * 2) / below };
+                Some(Self::Turn { joint: *joint, turn, within: None, line: *line })
+            }
+            Self::Shift { joint, line, .. } => {
+                let Pair::Prismatic { length, .. } = &linkage.joints[*joint].pair else { return None };
+                Some(Self::Shift { joint: *joint, shift: Rational::from(value / length), line: *line })
+            }
+            Self::Place { .. } => None,
+        }
+    }
+
     /// Returns what is known of the value, where `is_exact` says whether it is exact.
     #[must_use]
     pub fn accuracy(&self, is_exact: bool) -> Accuracy {

@@ -1,13 +1,12 @@
 //! The cells of one or two parameters as text and JSON.
 
-use super::json::{kind, number};
+use super::json::number;
 use super::number::counted;
 use super::table::{Columns, paragraph};
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::text::{Format, Names};
 use crate::algebra::univariate::Univariate;
-use crate::catalogue::entry::Entry;
 use crate::kinematics::closed_loop::Variable;
 use crate::sweep::{Cell, CellMap, Cells, Column, Zero};
 use crate::verdict::Proof;
@@ -179,18 +178,15 @@ fn judged(verdict: &crate::sweep::CellsVerdict) -> Value {
     value
 }
 
-/// The document of one parameter that equations/cells.schema.json describes; `case` is the number of the case in the file.
+/// The document of one parameter that equations/cells.schema.json describes, but for the keys about the file.
 #[must_use]
-pub fn json(entry: &Entry, case: usize, cells: &Cells) -> Value {
+pub fn json(cells: &Cells) -> Value {
     let [s, t] = names(cells);
     let factors = cells.discriminant.iter().map(|(one, multiplicity)| {
         let coefficients: Vec<String> = one.coefficients().iter().map(ToString::to_string).collect();
         json!({ "coefficients": coefficients, "multiplicity": multiplicity })
     });
     json!({
-        "title": entry.title,
-        "kind": kind(entry.kind()),
-        "case": case,
         "parameters": [parameter(&cells.parameter, cells.kind, cells.given)],
         "polynomial": {
             "variables": [s, t],
@@ -268,9 +264,9 @@ fn in_a_line(column: &Column, kind: Variable) -> String {
     }
 }
 
-/// The document of two parameters that equations/cells.schema.json describes.
+/// The document of two parameters that equations/cells.schema.json describes, but for the keys about the file.
 #[must_use]
-pub fn map_json(entry: &Entry, case: usize, map: &CellMap) -> Value {
+pub fn map_json(map: &CellMap) -> Value {
     let column = |column: &Column| match &column.cells {
         Ok(cells) => json!({
             "value": number(column.value),
@@ -283,9 +279,6 @@ pub fn map_json(entry: &Entry, case: usize, map: &CellMap) -> Value {
     };
     let parameters = [0, 1].map(|k| parameter(&map.parameters[k], map.kinds[k], map.given[k]));
     json!({
-        "title": entry.title,
-        "kind": kind(entry.kind()),
-        "case": case,
         "parameters": parameters,
         "range": map.range.map(number),
         "columns": map.columns.iter().map(column).collect::<Vec<_>>(),

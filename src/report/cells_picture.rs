@@ -2,7 +2,6 @@
 
 use super::cells::{map_verdict, verdict};
 use super::picture::{escaped, tick_text, ticks};
-use crate::catalogue::entry::Entry;
 use crate::kinematics::closed_loop::Variable;
 use crate::sweep::{CellMap, Cells, Label};
 use std::f64::consts::{PI, TAU};
@@ -20,12 +19,12 @@ const OUTSIDE: usize = 20;
 
 /// The picture of a map, an SVG document: angles in degrees, lengths in metres.
 #[must_use]
-pub fn map_svg(entry: &Entry, map: &CellMap) -> String {
+pub fn map_svg(title: &str, map: &CellMap) -> String {
     let columns: Vec<(f64, &Cells)> =
         map.columns.iter().filter_map(|column| Some((slot(map, column.value), column.cells.as_ref().ok()?))).collect();
     let label = |k: usize| format!("{} [{}]", map.parameters[k], if is_angle(map.kinds[k]) { "deg" } else { "m" });
     let picture = Picture {
-        title: &entry.title,
+        title,
         verdict: map_verdict(map),
         x: map.range,
         y: window(map.kinds[1], columns.iter().map(|(_, cells)| *cells), map.given[1]),
@@ -44,10 +43,10 @@ fn slot(map: &CellMap, value: f64) -> f64 {
 
 /// The picture of one parameter: its cells as a bar.
 #[must_use]
-pub fn svg(entry: &Entry, cells: &Cells) -> String {
+pub fn svg(title: &str, cells: &Cells) -> String {
     let label = format!("{} [{}]", cells.parameter, if is_angle(cells.kind) { "deg" } else { "m" });
     let picture = Picture {
-        title: &entry.title,
+        title,
         verdict: verdict(cells),
         x: [0.0, 1.0],
         y: window(cells.kind, std::iter::once(cells), cells.given),

@@ -5,10 +5,12 @@ use crate::algebra::polynomial::Polynomial;
 use crate::algebra::text::{Format, Names};
 use crate::catalogue::ansatz::Ansatz;
 use crate::conditions::decide::{Class, Decision, Family};
+use crate::conditions::examples::{Example, examples, first, value_at};
 use crate::conditions::four_bar::FourBar;
 use crate::conditions::step::{factored, plain, product, rational};
 use crate::error::{Error, Result};
 use crate::verdict::Proof;
+use rug::Rational;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -124,6 +126,9 @@ pub fn text(theorem: &FourBar, ansatz: &Ansatz, decision: &Decision) -> String {
         if let Some(note) = &family.note {
             let _ = writeln!(text, "  ({note})");
         }
+        if let Some(example) = library(family, decision) {
+            let _ = writeln!(text, "  in the library: {example}");
+        }
         let more = decision.families.iter().filter(same).count() - 1;
         if more > 0 {
             let _ = writeln!(
@@ -144,6 +149,18 @@ pub fn text(theorem: &FourBar, ansatz: &Ansatz, decision: &Decision) -> String {
         text.push_str(ROUNDED);
     }
     text
+}
+
+/// Returns a loop of the library that belongs to a family, where all parameters are symbols.
+fn library(family: &Family, decision: &Decision) -> Option<String> {
+    if decision.is_numeric || !moves(family) || family.conditions.is_empty() {
+        return None;
+    }
+    let contains = |own: &Example| {
+        let values: Option<Vec<Rational>> = decision.names.list().iter().map(|name| own.parameter(name)).collect();
+        values.is_some_and(|values| family.conditions.iter().all(|one| value_at(one, &values) == 0))
+    };
+    first(&examples(4), &contains)
 }
 
 const ROUNDED: &str = "\nwarning: numbers of the file without rational value or half-angle tangent are replaced by rationals nearby \
@@ -172,6 +189,7 @@ pub fn json(theorem: &FourBar, ansatz: &Ansatz, decision: &Decision) -> Value {
                 "class": class(family.class),
                 "name": family.name,
                 "degenerate": !moves(family),
+                "library": library(family, decision),
                 "conditions": family.conditions.iter().map(condition).collect::<Vec<_>>(),
                 "note": family.note,
             })

@@ -1,14 +1,16 @@
 //! The result of a search for conditions of 5R and 6R loops: the verdict first, then what was tried; as text and JSON.
 
-use super::table::Columns;
+use super::table::{Columns, paragraph};
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::text::{Format, Names};
 use crate::catalogue::ansatz::{Ansatz, Link};
+use crate::conditions::composed::Composed;
 use crate::conditions::curve_ansatz::{Curve, Relation};
+use crate::conditions::examples::first;
 use crate::conditions::formulas::Formulas;
 use crate::conditions::pattern::TwistPattern;
 use crate::conditions::search::{CurveLoop, CurveSearch, FamilyProof, Fitted, MobileSlice, SLICE_PRIME, Search};
-use crate::conditions::step::{factored, plain, product, ratio_text};
+use crate::conditions::step::{factored, plain, product, ratio_text, rational};
 use crate::conditions::sweep::{Evidence, Sweep};
 use crate::conditions::symmetry::{Signs, Slice};
 use crate::conditions::verification::{ModularMembers, RationalMember};
@@ -105,6 +107,9 @@ pub fn is_proved(search: &Search) -> bool {
                 _ => false,
             };
     }
+    if !search.composed.is_empty() {
+        return proper_slices(search).all(|slice| slice.proof.is_some());
+    }
     if let Some(curves) = &search.curves {
         let mut proper = curves.loops.iter().filter(|found| found.is_proper() && found.in_ansatz).peekable();
         return proper.peek().is_some() && proper.all(CurveLoop::is_proved);
@@ -150,6 +155,17 @@ pub fn verdict(ansatz: &Ansatz, search: &Search) -> String {
     }
     if let Some(fitted) = &search.fitted {
         return fit_verdict(ansatz, search, fitted);
+    }
+    if !search.composed.is_empty() {
+        let names: Vec<&str> = search.composed.iter().map(|one| one.name).collect();
+        let symmetric = proper_slices(search).count();
+        let more = if symmetric > 0 { format!("{symmetric} by symmetry and {} ", names.len()) } else { String::new() };
+        let sure = if is_proved(search) { "all proved for all parameters" } else { "some of them on evidence only" };
+        return format!(
+            "{} families that move, {more}made of Bennett loops ({}): {sure}; others are not excluded",
+            symmetric + names.len(),
+            names.join("; ")
+        );
     }
     if let Some(curves) = &search.curves {
         return curve_verdict(curves);
@@ -343,7 +359,8 @@ pub fn text(ansatz: &Ansatz, search: &Search) -> String {
     if let Some(fitted) = &search.fitted {
         fit_text(ansatz, fitted, &mut text);
     }
-    if let Some(curves) = &search.curves {
+    composed_text(search, &mut text);
+    if let Some(curves) = search.curves.as_ref().filter(|curves| !curves.loops.is_empty() || search.composed.is_empty()) {
         curve_text(curves, &mut text);
     }
     if let Some(member) = &search.member {
@@ -374,6 +391,33 @@ fn modular_text(modular: Option<ModularMembers>, text: &mut String) {
              general members did not move, each of them would with a probability below 2^-{MEMBERS} only"
         );
     }
+}
+
+fn composed_text(search: &Search, text: &mut String) {
+    for one in &search.composed {
+        let _ = writeln!(text, "\n{}", one.name);
+        paragraph(text, one.made);
+        let _ = writeln!(text, "  conditions on tangents t of half twists, lengths a and offsets d (each = 0)");
+        for condition in one.texts() {
+            let _ = writeln!(text, "    {condition}");
+        }
+        text.push_str("  motion, x any number\n");
+        for (number, ratio) in (1..).zip(one.motion()) {
+            let _ = writeln!(text, "    tan(theta{number}/2) = {ratio}");
+        }
+        if let Some(example) = first(&search.examples, &|own| one.contains(&own.links)) {
+            let _ = writeln!(text, "  in the library: {example}");
+        }
+        text.push_str("  proof: the product of all joints and links, expanded in x and the parameters, is a number\n  an example that moves, by the order test at x = 2/3\n");
+        for (number, link) in (1..).zip(&one.example) {
+            let _ = writeln!(text, "    link {number}: {}", link_text(link));
+        }
+    }
+}
+
+/// Returns the numbers of a link: cosine and sine of its twist, length and offset.
+fn link_text(Link { cos, sin, a, d }: &Link<Rational>) -> String {
+    format!("cos alpha = {cos}, sin alpha = {sin}, a = {a}, d = {d}")
 }
 
 fn pattern_text(ansatz: &Ansatz, search: &Search, text: &mut String) {
@@ -431,6 +475,9 @@ fn slice_text(search: &Search, text: &mut String) {
             text.push_str(" (degenerate, folded back on itself)");
         }
         text.push('\n');
+        if let Some(example) = first(&search.examples, &|own| mobile.contains(&own.links)) {
+            let _ = writeln!(text, "    in the library: {example}");
+        }
         match mobile.proof.as_deref() {
             Some(proof) if !proofs.contains(&proof) => {
                 proofs.push(proof);
@@ -580,8 +627,7 @@ fn formula_text(formulas: &Formulas, text: &mut String) {
 
 fn member_text(member: &RationalMember, text: &mut String) {
     for (number, link) in (1..).zip(&member.links) {
-        let Link { cos, sin, a, d } = link;
-        let _ = writeln!(text, "    link {number}: cos alpha = {cos}, sin alpha = {sin}, a = {a}, d = {d}");
+        let _ = writeln!(text, "    link {number}: {}", link_text(link));
     }
     let _ = writeln!(text, "    screw rank {}: {}", member.germ.rank, local(&member.germ));
 }
@@ -594,6 +640,7 @@ pub fn json(ansatz: &Ansatz, search: &Search) -> Value {
             "involution": mobile.slice.involution.name,
             "conditions": pattern(mobile),
             "degenerate": mobile.slice.slice == Slice::Folded,
+            "library": first(&search.examples, &|own| mobile.contains(&own.links)),
             "proof": mobile.proof,
         })
     };
@@ -627,13 +674,32 @@ pub fn json(ansatz: &Ansatz, search: &Search) -> Value {
         })),
         "own_symmetries": search.patterns.iter().map(own_symmetry).collect::<Vec<_>>(),
         "loops": search.curves.as_ref().map(loops),
+        "composed": search.composed.iter().map(|one| composed(search, one)).collect::<Vec<_>>(),
         "symmetries": search.mobile_slices.iter().map(slice).collect::<Vec<_>>(),
         "rounded": ansatz.rounded,
     })
 }
 
+fn composed(search: &Search, one: &Composed) -> Value {
+    let link = |Link { cos, sin, a, d }: &Link<Rational>| {
+        json!({ "cos_alpha": cos.to_string(), "sin_alpha": sin.to_string(), "a": a.to_string(), "d": d.to_string() })
+    };
+    json!({
+        "name": one.name,
+        "made": one.made,
+        "conditions": one.texts(),
+        "tan_half_theta": one.motion(),
+        "library": first(&search.examples, &|own| one.contains(&own.links)),
+        "example": one.example.iter().map(link).collect::<Vec<_>>(),
+        "proved": true,
+    })
+}
+
 /// Returns the certainty of the result; `None` where nothing was found.
 fn certainty(search: &Search) -> Option<Certainty> {
+    if !search.composed.is_empty() {
+        return is_proved(search).then_some(Certainty::Family);
+    }
     match (&search.fitted, &search.curves) {
         (Some(fitted), _) if fitted.sweep.relations.is_empty() && !fitted.sweep.always => None,
         (Some(fitted), _) => Some(fitted_certainty(search, fitted)),
@@ -744,6 +810,9 @@ fn families(ansatz: &Ansatz, search: &Search) -> Vec<(String, Vec<Polynomial<Rat
     let loops = search.curves.iter().flat_map(|curves| &curves.loops).filter_map(|found| found.formulas.as_ref());
     for (number, formulas) in (1..).zip(loops) {
         families.push((format!("loop {number}"), formulas.conditions.clone(), formulas.names.clone()));
+    }
+    for one in &search.composed {
+        families.push((one.name.to_owned(), one.conditions.iter().map(rational).collect(), one.names()));
     }
     for pattern in search.patterns.iter().filter(|pattern| !pattern.conditions.is_empty()) {
         let name = format!("{} from joint {}", pattern.involution, pattern.joint + 1);

@@ -139,6 +139,14 @@ pub(super) fn circular(file: &LinkageFile, input: usize, body: usize) -> Vec<Str
     first.into_iter().chain(output).collect()
 }
 
+/// Returns the names of input and output, and of the joints that are held: `Input A and output rocker, E held`.
+pub(super) fn ends(file: &LinkageFile, (input, body): (usize, usize), held: &[usize]) -> String {
+    let joint = |joint: &usize| file.linkage.joints[*joint].name.clone();
+    let held: Vec<String> = held.iter().map(joint).collect();
+    let rest = if held.is_empty() { String::new() } else { format!(", {} held", held.join(", ")) };
+    format!("Input {} and output {}{rest}", joint(&input), file.linkage.bodies[body].name)
+}
+
 /// Returns the heading of a relation in cosines and sines: that of a four-bar is Freudenstein's equation.
 pub(super) fn heading(file: &LinkageFile, joints: usize, is_turn: bool) -> &'static str {
     let is_four_bar = joints == 4 && is_turn && file.linkage.joints.iter().all(|joint| !joint.is_prismatic());
@@ -157,6 +165,16 @@ pub(super) fn document(file: &LinkageFile, case: usize) -> Value {
         "kind": "linkage",
         "case": case,
     })
+}
+
+/// Returns a document with the keys that every document of a linkage has; `case` is counted from 1.
+#[must_use]
+pub fn completed(file: &LinkageFile, case: usize, own: Value) -> Value {
+    let mut document = document(file, case);
+    if let (Value::Object(document), Value::Object(own)) = (&mut document, own) {
+        document.extend(own);
+    }
+    document
 }
 
 /// The derivation of a case, its number counted from 1, as one document.
@@ -189,6 +207,7 @@ pub fn json(file: &LinkageFile, case: usize, derivation: &LinkageDerivation) -> 
             "input": file.linkage.joints[found.input].name,
             "body": file.linkage.bodies[found.body].name,
             "against": file.linkage.bodies[found.against].name,
+            "held": found.held.iter().map(|joint| &file.linkage.joints[*joint].name).collect::<Vec<_>>(),
             "variables": variables,
             "degrees": [found.polynomial.degree(0), found.polynomial.degree(1)],
             "polynomial": written(&rational(&found.polynomial), &variables),
@@ -252,8 +271,7 @@ pub fn text(file: &LinkageFile, case: &LinkageCase, number: usize, derivation: &
     }
     if let Some(found) = &derivation.input_output {
         let variables = pair(file, found.input, found.body);
-        let joint = &file.linkage.joints[found.input].name;
-        let _ = writeln!(text, "\nInput {joint} and output {}", file.linkage.bodies[found.body].name);
+        let _ = writeln!(text, "\n{}", ends(file, (found.input, found.body), &found.held));
         let _ = writeln!(text, "  {}", written(&rational(&found.polynomial), &variables));
         if let Some(own) = in_cosines(&found.polynomial, found.is_turn) {
             let names = circular(file, found.input, found.body);

@@ -1,6 +1,6 @@
 //! Relations of input and output of linkages with symbols, as text and as JSON.
 
-use super::linkage_derivation::{circular, document, heading, pair, rational, tangent, terms, written};
+use super::linkage_derivation::{circular, document, ends, heading, pair, rational, tangent, terms, written};
 use super::number::counted;
 use super::table::paragraph;
 use crate::catalogue::LinkageFile;
@@ -71,7 +71,7 @@ pub fn text(file: &LinkageFile, found: &LinkageSymbolic) -> String {
     let [body, against] = [found.body, found.against].map(|body| &linkage.bodies[body].name);
     let output = tangent(file, found.body);
     paragraph(&mut text, &format!("{output} is the tangent of half the angle of {body} against {against}."));
-    let _ = writeln!(text, "\nInput {} and output {body}", linkage.joints[found.input].name);
+    let _ = writeln!(text, "\n{}", ends(file, (found.input, found.body), &found.held));
     let _ = writeln!(text, "  {}", written(&rational(&found.polynomial), &variables(file, found)));
     if let Some(own) = cosines(file, found) {
         let _ = writeln!(text, "\n{}\n  {own}", heading(file, found.joints.len(), found.is_turn));
@@ -103,6 +103,7 @@ pub fn json(file: &LinkageFile, case: usize, found: &LinkageSymbolic) -> Value {
         "input": linkage.joints[found.input].name,
         "body": linkage.bodies[found.body].name,
         "against": linkage.bodies[found.against].name,
+        "held": found.held.iter().map(|joint| &linkage.joints[*joint].name).collect::<Vec<_>>(),
         "variables": names,
         "degrees": (0..names.len()).map(|k| found.polynomial.degree(k)).collect::<Vec<u32>>(),
         "polynomial": written(&rational(&found.polynomial), &names),

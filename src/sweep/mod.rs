@@ -22,7 +22,9 @@ mod track;
 mod verdict;
 
 pub use branch::{Branch, End, Limit, Row};
-pub use cells::{Cell, CellMap, Cells, CellsVerdict, Column, Label, MapWanted, Zero, cell_map, cells, is_angle};
+pub use cells::{
+    Cell, CellMap, Cells, CellsVerdict, Column, EntryCase, Label, LinkageCase, MapWanted, Parameter, Subject, Zero, cell_map, cells,
+};
 pub use derivation::derive_any;
 pub use assemblies::{AssemblyBranch, AssemblyLimit, AssemblyRow, AssemblySample, AssemblySweep};
 pub use linkage::{LinkageSweep, count_limits, sweep_linkage};

@@ -12,7 +12,7 @@ use super::tracks::{Kind, Track, is_path, is_sweep, list, stride, tracks};
 use super::words::{Headline, followed, moving, solved, swept};
 use crate::report::number::counted;
 use crate::report::picture::escaped;
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::fmt::Write;
 
 /// The script, bundled with three.js (see assets/viewer).
@@ -58,13 +58,18 @@ pub fn parts(document: &Value) -> Value {
     header(&mut top, document, &headlines);
     side(&mut middle, document, &tracks);
     footer(&mut bottom, document, &headlines);
-    json!({
-        "tone": tone(document, &headlines),
-        "header": top,
-        "side": middle,
-        "footer": bottom,
-        "data": data(document, &tracks),
-    })
+    object([
+        ("tone", tone(document, &headlines).into()),
+        ("header", top.into()),
+        ("side", middle.into()),
+        ("footer", bottom.into()),
+        ("data", data(document, &tracks)),
+    ])
+}
+
+/// Returns an object of values as they are: the macro `json!` would copy each of them.
+fn object<const N: usize>(entries: [(&str, Value); N]) -> Value {
+    Value::Object(entries.into_iter().map(|(key, value)| (key.to_owned(), value)).collect())
 }
 
 fn whole(document: &Value, figure: Option<&str>, live: Option<(&Value, &Live)>) -> String {
@@ -113,7 +118,7 @@ fn data(document: &Value, tracks: &[Track<'_>]) -> Value {
     let scene = if document["scene"].is_object() { document["scene"].clone() } else { Value::Null };
     let stride = stride(tracks, POSES);
     let tracks: Vec<Value> = tracks.iter().map(|track| track.json(document, stride)).collect();
-    json!({ "scene": scene, "tracks": tracks, "case": first_case(document) })
+    object([("scene", scene), ("tracks", Value::Array(tracks)), ("case", first_case(document).into())])
 }
 
 /// The colour of the verdict that is shown first.

@@ -2,10 +2,13 @@
 #![allow(clippy::unwrap_used)]
 
 use looproot::internal::catalogue::entry::Entry;
-use looproot::internal::catalogue::{Options, load};
+use looproot::internal::catalogue::{Any, LinkageFile, Options, load, load_any};
 use looproot::internal::derivation::derive;
 use looproot::internal::kinematics::closed_loop::Variable;
-use looproot::internal::sweep::{Cells, Label, MapWanted, Range, cell_map, cells, sweep};
+use rug::Rational;
+use looproot::internal::sweep::{
+    Cells, EntryCase, Label, LinkageCase, MapWanted, Range, Subject, cell_map, cells, sweep,
+};
 use looproot::internal::verdict::{Code, Proof};
 use std::f64::consts::PI;
 
@@ -14,7 +17,7 @@ fn entry(name: &str) -> Entry {
 }
 
 fn found(entry: &Entry, parameter: &str) -> Cells {
-    cells(entry, &entry.cases[0], parameter).unwrap()
+    cells(&EntryCase::new(entry, &entry.cases[0]), parameter).unwrap()
 }
 
 /// The solver agrees at the sample point of every cell.
@@ -96,7 +99,7 @@ fn a_parallelogram_passes_through_nodes() {
 fn a_map_has_the_cells_of_each_column() {
     let entry = entry("rssr");
     let wanted = MapWanted { parameters: ["a1", "theta1"], range: Some([5.0, 7.0]), columns: 3 };
-    let map = cell_map(&entry, &entry.cases[0], wanted, || true, || {}).unwrap();
+    let map = cell_map(&EntryCase::new(&entry, &entry.cases[0]), wanted, || true, || {}).unwrap();
     assert_eq!(map.columns.len(), 3);
     for column in &map.columns {
         let cells = column.cells.as_ref().unwrap();
@@ -104,8 +107,81 @@ fn a_map_has_the_cells_of_each_column() {
         assert!(column.value > 5.0 && column.value < 7.0);
     }
     // A map that stops at once has no columns, which is no error.
-    let stopped = cell_map(&entry, &entry.cases[0], wanted, || false, || {}).unwrap();
+    let stopped = cell_map(&EntryCase::new(&entry, &entry.cases[0]), wanted, || false, || {}).unwrap();
     assert!(stopped.columns.is_empty());
     let empty = MapWanted { range: Some([5.0, 5.0]), ..wanted };
-    assert!(cell_map(&entry, &entry.cases[0], empty, || true, || {}).is_err());
+    assert!(cell_map(&EntryCase::new(&entry, &entry.cases[0]), empty, || true, || {}).is_err());
+}
+
+fn linkage(name: &str) -> LinkageFile {
+    match load_any(name, &Options::default()).unwrap() {
+        Any::Linkage(file) => *file,
+        _ => panic!("{name} is no linkage"),
+    }
+}
+
+fn case(file: &LinkageFile) -> LinkageCase {
+    LinkageCase::new(&file.linkage, file.exact, &file.cases[0].given, file.cases[0].accuracy)
+}
+
+/// The modes at simple numbers everywhere on the axis of a parameter are those of their cells.
+fn agrees(subject: &LinkageCase, own: &Cells) {
+    let parameter = subject.parameter(&own.parameter).unwrap();
+    let mut compared = 0;
+    for numerator in -14..=14 {
+        let value = Rational::from((numerator, 3));
+        let natural = match own.kind {
+            Variable::Rotation => 2.0 * value.to_f64().atan(),
+            Variable::Translation => value.to_f64(),
+        };
+        let Some(modes) = own.modes_at(natural) else { continue };
+        if let Some(solved) = subject.with(&parameter, &value).real_modes() {
+            assert_eq!(solved, modes, "{} = {value}", own.parameter);
+            compared += 1;
+        }
+    }
+    assert!(compared >= 20, "{}: {compared}", own.parameter);
+}
+
+#[test]
+fn inputs_of_linkages_cut_cells_that_the_solver_confirms() {
+    for (name, parameter) in [
+        ("linkage/level_four_bar", "A"),
+        ("linkage/crank_slider", ""),
+        ("linkage/inverted_slider_crank", ""),
+        ("linkage/stephenson_3_triad", ""),
+        ("linkage/watt_1", ""),
+    ] {
+        let file = linkage(name);
+        let subject = case(&file);
+        let first = file.linkage.joints.iter().find(|joint| subject.parameter(&joint.name).is_ok()).unwrap();
+        let own = cells(&subject, if parameter.is_empty() { &first.name } else { parameter }).unwrap();
+        assert_eq!(own.verdict.proof, Proof::Proved, "{name}: {:?}", own.verdict);
+        holds(&own);
+        agrees(&subject, &own);
+    }
+}
+
+#[test]
+fn one_leg_of_three_cuts_cells() {
+    let file = linkage("linkage/3rpr");
+    let subject = case(&file);
+    let own = cells(&subject, "L2").unwrap();
+    assert!(!own.verdict.proof.is_proved() && own.polynomial.degree(1) == 6, "{:?}", own.verdict);
+    holds(&own);
+    agrees(&subject, &own);
+}
+
+#[test]
+fn coordinates_of_points_cut_cells_as_well() {
+    let file = linkage("linkage/level_four_bar");
+    let subject = case(&file);
+    let own = cells(&subject, "crank.B.x").unwrap();
+    assert!(matches!(own.verdict.proof, Proof::Probable { .. }), "{:?}", own.verdict);
+    holds(&own);
+    agrees(&subject, &own);
+    let limits: Vec<f64> = own.zeros.iter().map(|zero| zero.value).collect();
+    // The coupler and the rocker, 3 and 1, reach the joint of the crank where it is 4 away from D; or 2, which it never is.
+    assert!((limits[0] + 1.4).abs() < 1e-9 && (limits[1] - 5.0).abs() < 1e-9, "{limits:?}");
+    assert!(cells(&subject, "crank.B.q").is_err());
 }

@@ -166,6 +166,7 @@ fn the_document_follows_its_schema() {
         &[
             "derive cccr_1_angle --discriminant theta1 --json",
             "derive rssr --discriminant a1,theta1 --columns 3 --json",
+            "derive linkage/level_four_bar --discriminant A --json",
         ],
     );
     follows(
@@ -180,7 +181,7 @@ fn the_document_follows_its_schema() {
     follows("conditions.schema.json", &["conditions 4R --json", "conditions bennett --json"]);
     follows(
         "conditions_search.schema.json",
-        &["conditions goldberg_5r --json", "conditions dietmaier_6r --json", "conditions trihedral_6r --json"],
+        &["conditions 5R --json", "conditions goldberg_5r --json", "conditions dietmaier_6r --json", "conditions trihedral_6r --json"],
     );
 }
 

@@ -6,12 +6,38 @@ use super::ring::Ring;
 use super::univariate::Univariate;
 use rug::{Integer, Rational};
 use std::cmp::Ordering;
+use std::collections::VecDeque;
+use std::rc::Rc;
 
 /// Returns the residues of an integer polynomial, constant term first; empty when all vanish.
 fn residues(coefficients: &[Integer], modulus: &Modulus) -> Vec<u64> {
     let mut residues = coefficients.iter().map(|c| modulus.reduce(c)).collect();
     trim(&mut residues);
     residues
+}
+
+/// Number of primes in the product modulo which long coefficients are reduced first: one pass over a coefficient then serves all of them.
+const BLOCK: usize = 16;
+
+/// Returns all primes, each with numbers that have the residues of these coefficients modulo it, and are not much longer.
+fn images(lists: [&[Integer]; 2]) -> impl Iterator<Item = ([Rc<[Integer]>; 2], Modulus)> {
+    let whole: [Rc<[Integer]>; 2] = lists.map(Rc::from);
+    let mut primes = primes();
+    let mut waiting: VecDeque<Modulus> = VecDeque::new();
+    let mut reduced = whole.clone();
+    let mut size = 1;
+    std::iter::from_fn(move || {
+        if waiting.is_empty() {
+            waiting.extend(primes.by_ref().take(size));
+            // The first prime often decides, and then nothing is done for others.
+            if size > 1 {
+                let product: Integer = waiting.iter().map(Modulus::prime).map(Integer::from).product();
+                reduced = whole.each_ref().map(|list| list.iter().map(|c| Integer::from(c % &product)).collect());
+            }
+            size = (2 * size).min(BLOCK);
+        }
+        Some((reduced.clone(), waiting.pop_front()?))
+    })
 }
 
 /// A common divisor known modulo a product of primes, coefficients symmetric about 0.
@@ -132,9 +158,9 @@ impl Univariate<Integer> {
         };
         let leading = Integer::from(f_leading.gcd_ref(g_leading));
         let mut lifted: Option<Lifted> = None;
-        for modulus in primes() {
+        for ([f_image, g_image], modulus) in images([f.coefficients(), g.coefficients()]) {
             let scale = modulus.reduce(&leading);
-            let (a, b) = (residues(f.coefficients(), &modulus), residues(g.coefficients(), &modulus));
+            let (a, b) = (residues(&f_image, &modulus), residues(&g_image, &modulus));
             if a.len() < f.coefficients().len() || b.len() < g.coefficients().len() {
                 continue;
             }

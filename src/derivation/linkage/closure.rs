@@ -74,6 +74,8 @@ pub struct InputOutput {
     pub body: usize,
     /// The body relative to which its angle is measured.
     pub against: usize,
+    /// The other given joints, which are held.
+    pub held: Vec<usize>,
     /// Number of joints on whose cycles it rests.
     pub joints: usize,
     /// The polynomial in both.
@@ -87,7 +89,7 @@ pub struct InputOutput {
 pub struct LinkageDerivation {
     /// The polynomials, those of the last group first, the best of every group before the others.
     pub polynomials: Vec<GroupPolynomial>,
-    /// The relation of output and input, if one joint is given.
+    /// The relation of the output and the first given joint, where the others are held.
     pub input_output: Option<InputOutput>,
     /// What relates them.
     pub(super) relation: Option<Relation>,
@@ -97,6 +99,9 @@ pub struct LinkageDerivation {
     pub equations: Vec<Polynomial<Rational>>,
     /// The meaning of the variables of the equations.
     pub variables: Vec<Symbol>,
+    /// Whether no displacement that is unknown can become infinite: each is the only one in some cycle, so that no link of the cycle
+    /// lets it exceed the sum of their lengths.
+    pub is_bounded: bool,
     /// The reasons why some polynomials are missing.
     pub warnings: Vec<String>,
 }
@@ -209,6 +214,16 @@ impl Part {
         Some((symbols, equations))
     }
 
+    /// Returns whether every displacement is the only one of some cycle.
+    fn is_bounded(&self) -> bool {
+        let moves = |slide: usize, cycle: usize| !Ring::is_zero(&self.exact.slides[slide].coefficients[cycle].z);
+        let slides = self.exact.slides.len();
+        (0..slides).all(|slide| {
+            (0..self.exact.cycles.len())
+                .any(|cycle| moves(slide, cycle) && (0..slides).all(|other| other == slide || !moves(other, cycle)))
+        })
+    }
+
     /// Returns whether the class of another body must be at rest, because all slides are fixed in it.
     fn rests(&self, base: usize, body: usize) -> Option<bool> {
         let slides: Vec<usize> = self.exact.slides.iter().map(|slide| slide.class).collect();
@@ -270,12 +285,14 @@ pub fn derive_linkage(linkage: &Linkage, given: &[Given]) -> Result<LinkageDeriv
     let input_output = polynomials.first().zip(relation.as_ref());
     let input_output = input_output.and_then(|(best, relation)| relate(linkage, &given[0], relation, best));
     let groups = found.groups.iter().map(|group| (group.bodies.clone(), group.count)).collect();
-    let equations = polynomials.first().and_then(|best| {
+    let part = polynomials.first().and_then(|best| {
         let needed = foundations(linkage, &found.groups, best.group, linkage.ground, &merged);
-        Part::new(linkage, given, joints_of(&found, &needed))?.equations(best.against)
+        Part::new(linkage, given, joints_of(&found, &needed)).map(|part| (best, part))
     });
+    let is_bounded = part.as_ref().is_some_and(|(_, part)| part.is_bounded());
+    let equations = part.and_then(|(best, part)| part.equations(best.against));
     let (variables, equations) = equations.unwrap_or_default();
-    Ok(LinkageDerivation { polynomials, input_output, relation, groups, equations, variables, warnings })
+    Ok(LinkageDerivation { polynomials, input_output, relation, groups, equations, variables, is_bounded, warnings })
 }
 
 const WITHOUT: &str =
@@ -362,13 +379,15 @@ pub(super) struct Relation {
     pub is_turn: bool,
     /// The joints, the input among them.
     pub joints: Vec<usize>,
+    /// The other given values.
+    pub held: Vec<Given>,
     /// The body whose half-angle tangent is the output, and that against which its angle is measured.
     pub body: usize,
     pub against: usize,
 }
 
 impl Relation {
-    /// Returns that of the best polynomial, if one joint is given.
+    /// Returns that of the best polynomial to the first given joint, the others are held.
     pub fn of(
         linkage: &Linkage,
         given: &[Given],
@@ -376,17 +395,23 @@ impl Relation {
         merged: &crate::linkage::groups::Merged,
         best: &GroupPolynomial,
     ) -> Option<Self> {
-        let [one] = given else { return None };
+        let (one, held) = given.split_first()?;
         let (Given::Turn { joint, .. } | Given::Shift { joint, .. }) = one else { return None };
         let mut joints = joints_of(found, &foundations(linkage, &found.groups, best.group, linkage.ground, merged));
         joints.push(*joint);
         let is_turn = matches!(one, Given::Turn { .. });
-        Some(Self { input: *joint, is_turn, joints, body: best.body, against: best.against })
+        let held = held.to_vec();
+        Some(Self { input: *joint, is_turn, joints, held, body: best.body, against: best.against })
+    }
+
+    /// Returns the joints that are held; a body that is held has none.
+    pub fn held_joints(&self) -> Vec<usize> {
+        self.held.iter().filter_map(Given::joint).collect()
     }
 
     /// Returns the polynomial in input, a half-angle tangent or a part of the direction of the joint, and output.
     pub fn polynomial(&self, linkage: &Linkage) -> Option<Polynomial<Int>> {
-        let part = Part::new(linkage, &[], self.joints.clone())?;
+        let part = Part::new(linkage, &self.held, self.joints.clone())?;
         let of = linkage.joints[self.input].of;
         let mut exact = part.exact.clone();
         let (rest, hidden) = part.measured(self.against, self.body, false, &mut exact)?;
@@ -431,31 +456,53 @@ impl Relation {
     }
 }
 
-/// Returns the polynomial of the input, if one joint is given, and the body of the best polynomial.
+/// Returns the polynomial of the first given joint and the body of the best polynomial.
 fn relate(linkage: &Linkage, one: &Given, relation: &Relation, best: &GroupPolynomial) -> Option<InputOutput> {
     let polynomial = relation.polynomial(linkage)?;
-    let agrees = at_input(&polynomial, linkage, one).is_some_and(|own| is_multiple(&own, &best.coefficients));
+    let at_input = InputNumber::of(one).and_then(|number| number.put(&polynomial)?.to_univariate(1));
+    let agrees = at_input.is_some_and(|own| is_multiple(&own, &best.coefficients));
     let polynomial = relation.in_metres(polynomial, linkage)?;
     let Relation { input, is_turn, body, against, .. } = *relation;
-    Some(InputOutput { input, is_turn, body, against, joints: relation.joints.len(), polynomial, agrees })
+    let joints = relation.joints.len();
+    Some(InputOutput { input, is_turn, body, against, held: relation.held_joints(), joints, polynomial, agrees })
 }
 
-/// Returns the polynomial at the value of the input; `None` for the angle pi.
-fn at_input(polynomial: &Polynomial<Int>, linkage: &Linkage, given: &Given) -> Option<Univariate<Rational>> {
-    let value = match given {
-        Given::Turn { turn, .. } => {
-            let below = Rational::from(1 + &turn.re);
-            (below != 0).then(|| Rational::from(&turn.im / &below))?
+/// The value of an input as a relation has it.
+pub(super) enum InputNumber {
+    /// A half-angle tangent, or a displacement.
+    Finite(Rational),
+    /// The half-angle tangent of pi.
+    Infinite,
+}
+
+impl InputNumber {
+    /// Returns the number of a given value: a displacement in parts of the direction of its joint.
+    pub fn of(given: &Given) -> Option<Self> {
+        match given {
+            Given::Turn { turn, .. } => {
+                let below = Rational::from(1 + &turn.re);
+                Some(if below == 0 { Self::Infinite } else { Self::Finite(Rational::from(&turn.im / &below)) })
+            }
+            Given::Shift { shift, .. } => Some(Self::Finite(shift.clone())),
+            Given::Place { .. } => None,
         }
-        Given::Shift { joint, shift, .. } => {
-            let Pair::Prismatic { .. } = linkage.joints[*joint].pair else { return None };
-            shift.clone()
+    }
+
+    /// Returns a polynomial with this number for its first variable, which it does not contain any more.
+    pub fn put(&self, polynomial: &Polynomial<Int>) -> Option<Polynomial<Rational>> {
+        let rational = polynomial.map(|c| Some(Rational::from(c.to_integer())))?;
+        match self {
+            Self::Finite(value) => Some(rational.substitute(0, &Polynomial::constant(value.clone()))),
+            Self::Infinite => {
+                let degree = rational.degree(0);
+                let leading = rational.terms().filter(|(exponents, _)| exponents.first().copied().unwrap_or(0) == degree);
+                Some(Polynomial::from_terms(leading.map(|(exponents, c)| {
+                    let rest = exponents.iter().enumerate().map(|(k, e)| if k == 0 { 0 } else { *e });
+                    (rest.collect(), c.clone())
+                })))
+            }
         }
-        Given::Place { .. } => return None,
-    };
-    let rational = polynomial.map(|c| Some(Rational::from(c.to_integer())))?;
-    let value = Polynomial::constant(value);
-    rational.substitute(0, &value).to_univariate(1)
+    }
 }
 
 /// Returns whether two polynomials agree up to a factor.

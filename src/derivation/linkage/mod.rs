@@ -2,11 +2,13 @@
 
 mod closure;
 mod cosines;
+mod inputs;
 mod symbolic;
 mod trace;
 
 pub use closure::{GroupPolynomial, InputOutput, LinkageDerivation, Symbol, derive_linkage};
 pub use cosines::in_cosines;
+pub use inputs::relation_by_values;
 pub use symbolic::{Coordinate, LinkageSymbolic, derive_linkage_with_symbols};
 pub use trace::{Curve, trace, trace_mass};
 

@@ -1,14 +1,14 @@
 //! The relation of input and output of a linkage with coordinates of its points as symbols.
 
-use super::closure::{Relation, derive_linkage};
+use super::closure::{InputNumber, Relation, derive_linkage};
 use super::cosines::integers;
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
-use crate::algebra::ring::Domain;
+use crate::algebra::ring::{Domain, Ring};
 use crate::derivation::equation::primitive;
 use crate::derivation::interpolation::{COMPARED, Family, Source, Values, Watch};
 use crate::error::{Error, Result};
-use crate::kinematics::linkage::{Given, Linkage};
+use crate::kinematics::linkage::{Given, Linkage, Pair};
 use rug::{Integer, Rational};
 
 /// Maximum number of symbols: each multiplies the number of derivations by four or more.
@@ -49,7 +49,10 @@ impl Coordinate {
     }
 
     /// Returns the coordinates of all points at which some joints are.
-    fn all(linkage: &Linkage, joints: &[usize]) -> Result<Vec<Self>> {
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] where two points of a body are at one place.
+    pub fn all(linkage: &Linkage, joints: &[usize]) -> Result<Vec<Self>> {
         let mut list = Vec::new();
         for (body, own) in linkage.bodies.iter().enumerate() {
             for (point, (name, place)) in own.points.iter().enumerate() {
@@ -77,8 +80,8 @@ impl Coordinate {
         Ok(list)
     }
 
-    /// Replaces it by another number.
-    fn put(&self, linkage: &mut Linkage, value: &Rational) {
+    /// Replaces it by another number, metres.
+    pub fn put(&self, linkage: &mut Linkage, value: &Rational) {
         let place = &mut linkage.bodies[self.body].points[self.point].1;
         let own = if self.axis == 0 { &mut place.re } else { &mut place.im };
         own.clone_from(value);
@@ -94,6 +97,8 @@ impl Coordinate {
 pub struct LinkageSymbolic {
     /// The joint whose value is variable 0: a half-angle tangent or metres.
     pub input: usize,
+    /// The other given joints, which are held.
+    pub held: Vec<usize>,
     /// Whether the input is an angle.
     pub is_turn: bool,
     /// The body whose half-angle tangent is variable 1.
@@ -112,6 +117,23 @@ pub struct LinkageSymbolic {
     pub compared: usize,
     /// Whether at the numbers of the file the relation derived from these divides it.
     pub agrees: bool,
+}
+
+impl LinkageSymbolic {
+    /// Returns the polynomial with the given value of its input: the first symbol is variable 0, the output variable 1.
+    #[must_use]
+    pub fn at_input(&self, linkage: &Linkage, given: &Given) -> Option<Polynomial<Int>> {
+        let number = match (InputNumber::of(given)?, &linkage.joints[self.input].pair) {
+            (InputNumber::Finite(shift), Pair::Prismatic { length, .. }) => InputNumber::Finite(shift * length),
+            (number, _) => number,
+        };
+        let rest = number.put(&self.polynomial)?;
+        let own = Polynomial::from_terms(rest.terms().map(|(exponents, c)| {
+            let power = |k: usize| exponents.get(k).copied().unwrap_or(0);
+            (vec![power(2), power(1)], c.clone())
+        }));
+        (!own.is_zero()).then(|| integers(&own))
+    }
 }
 
 /// The relations at values of the symbols.
@@ -174,11 +196,11 @@ fn chosen(linkage: &Linkage, joints: &[usize], wanted: &[String]) -> Result<(Vec
     Ok((symbols, numbers.into_iter().filter(|one| one.value != 0).collect()))
 }
 
-/// Derives the relation of one input and the output with coordinates of points as symbols: those `wanted`, named as
+/// Derives the relation of the first given joint and the output, the other given joints held, with coordinates of points as symbols: those `wanted`, named as
 /// `crank.B.x`, else all of the joints concerned that are not zero.
 ///
 /// # Errors
-/// As [`derive_linkage`]; [`Error::Unsupported`] without one given joint, for more than six symbols, if there would be more than 100,000
+/// As [`derive_linkage`]; [`Error::Unsupported`] without a given joint, for more than six symbols, if there would be more than 100,000
 /// terms, and where it is ended; [`Error::Invalid`] for an unknown symbol.
 pub fn derive_linkage_with_symbols(
     linkage: &Linkage,
@@ -187,8 +209,8 @@ pub fn derive_linkage_with_symbols(
     watch: &Watch<'_>,
 ) -> Result<LinkageSymbolic> {
     let none = || {
-        let message = "with symbols the relation of an input and an output is derived, and there is none: expected one given joint and \
-                       a closure polynomial";
+        let message = "with symbols the relation of an input and an output is derived, and there is none: expected a given joint and a \
+                       closure polynomial";
         Error::Unsupported(message.to_owned())
     };
     let base = derive_linkage(linkage, given)?;
@@ -219,6 +241,7 @@ pub fn derive_linkage_with_symbols(
     let agrees = at_file.checked_div_exact(&own.polynomial).is_some();
     Ok(LinkageSymbolic {
         input: relation.input,
+        held: relation.held_joints(),
         is_turn: relation.is_turn,
         body: relation.body,
         against: relation.against,

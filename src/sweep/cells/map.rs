@@ -1,9 +1,7 @@
 //! The numbers of real assembly modes over a plane of two parameters: cells of the second one, column by column.
 
-use super::{Cells, cells};
+use super::{Cells, Parameter, Subject, cells};
 use crate::algebra::approximation::simplest_between;
-use crate::catalogue::entry::{Case, Entry};
-use crate::derivation::Setting;
 use crate::error::{Error, Result};
 use crate::kinematics::closed_loop::Variable;
 use rayon::prelude::*;
@@ -55,19 +53,19 @@ pub struct Wanted<'n> {
 /// # Errors
 /// [`Error::Invalid`] for unknown parameters and an empty range; [`Error::Unsupported`] where no column has a closure polynomial.
 pub fn cell_map(
-    entry: &Entry,
-    case: &Case,
+    subject: &impl Subject,
     wanted: Wanted<'_>,
     running: impl Fn() -> bool + Sync,
     tick: impl Fn() + Sync,
 ) -> Result<CellMap> {
     let names = wanted.parameters.map(ToOwned::to_owned);
-    let settings = Setting::named(&Setting::all(entry, case), &names)?;
-    let [first, second] = settings.as_slice() else {
-        return Err(Error::Invalid(format!("found {} parameters, expected two", settings.len())));
-    };
-    let natural = |setting: &Setting| setting.value.as_ref().map(|value| super::natural(value, setting.kind));
-    let given = [natural(first), natural(second)];
+    let [one, two] = &names;
+    if one == two {
+        return Err(Error::Invalid(format!("found the parameter {one} twice, expected two parameters")));
+    }
+    let (first, second) = (subject.parameter(one)?, subject.parameter(two)?);
+    let natural = |setting: &Parameter| setting.value.as_ref().map(|value| super::natural(value, setting.kind));
+    let given = [natural(&first), natural(&second)];
     let range = wanted.range.unwrap_or_else(|| match (first.kind, given[0]) {
         (Variable::Rotation, _) => [-PI, PI],
         (Variable::Translation, Some(length)) if length != 0.0 => [0.0, 2.0 * length],
@@ -84,9 +82,7 @@ pub fn cell_map(
             return None;
         }
         let exact = simple(from + (k as f64 + 0.5) * width, width, first.kind)?;
-        let (mut entry, mut case) = (entry.clone(), case.clone());
-        first.put(&mut entry, &mut case, &exact);
-        let found = match cells(&entry, &case, &second.name) {
+        let found = match cells(&subject.with(&first, &exact), &second.name) {
             Ok(cells) => Ok(cells),
             Err(Error::Unsupported(message)) => Err(message),
             Err(error) => return Some(Err(error)),

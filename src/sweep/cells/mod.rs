@@ -7,8 +7,10 @@
 mod map;
 mod multiple;
 mod source;
+mod subject;
 
 pub use map::{CellMap, Column, Wanted as MapWanted, cell_map};
+pub use subject::{EntryCase, LinkageCase, Parameter, Subject};
 
 use super::exact::{Critical, Event, Output, PlaneCurve};
 use crate::algebra::approximation::simplest_between;
@@ -16,13 +18,10 @@ use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::real_roots::RealRoot;
 use crate::algebra::univariate::Univariate;
-use crate::assembly::{Assembly, Roots, Workspace, wrapped};
-use crate::catalogue::entry::{Case, Entry};
-use crate::derivation::Setting;
+use crate::assembly::wrapped;
 use crate::error::{Error, Result};
 use crate::kinematics::closed_loop::Variable;
-use crate::mechanism::Mechanism;
-use crate::verdict::{Code, Proof, Status};
+use crate::verdict::{Code, Proof};
 use rayon::prelude::*;
 use rug::{Integer, Rational};
 use source::Source;
@@ -137,23 +136,14 @@ pub struct Cells {
     pub verdict: CellsVerdict,
 }
 
-/// The cells of one parameter of a case: its input, a link parameter, a coordinate `x`, `y`, `z` of the pose, or a leg.
+/// The cells of one parameter of a mechanism: an input, a link parameter, a coordinate `x`, `y`, `z` of the pose, a leg, or a coordinate
+/// of a point of a linkage.
 ///
 /// # Errors
 /// [`Error::Invalid`] for an unknown parameter; [`Error::Unsupported`] where no closure polynomial in it is known.
-pub fn cells(entry: &Entry, case: &Case, parameter: &str) -> Result<Cells> {
-    let all = Setting::all(entry, case);
-    let setting = Setting::named(&all, &[parameter.to_owned()])?.remove(0);
-    Source::of(entry, case, &setting)?.cells(entry, case, &setting)
-}
-
-/// Whether a parameter of a case is an angle.
-///
-/// # Errors
-/// [`Error::Invalid`] for an unknown parameter.
-pub fn is_angle(entry: &Entry, case: &Case, parameter: &str) -> Result<bool> {
-    let found = Setting::named(&Setting::all(entry, case), &[parameter.to_owned()])?;
-    Ok(found.iter().all(|setting| setting.kind == Variable::Rotation))
+pub fn cells(subject: &impl Subject, parameter: &str) -> Result<Cells> {
+    let parameter = subject.parameter(parameter)?;
+    subject.source(&parameter)?.cells(subject, &parameter)
 }
 
 /// A bound of a cell, before its label is known.
@@ -167,6 +157,10 @@ struct Bound {
 impl Bound {
     /// Whether two bounds are one number.
     fn is_same(&self, other: &Self) -> bool {
+        if Arc::ptr_eq(&self.minimal, &other.minimal) {
+            // These are different roots of one polynomial.
+            return false;
+        }
         let common = self.minimal.gcd(&other.minimal);
         if common.degree().is_none_or(|degree| degree == 0) {
             return false;
@@ -182,11 +176,11 @@ impl Bound {
 }
 
 impl Source {
-    fn cells(&self, entry: &Entry, case: &Case, setting: &Setting) -> Result<Cells> {
+    fn cells(&self, subject: &impl Subject, setting: &Parameter) -> Result<Cells> {
         let output = self.exact.output(0).ok_or_else(|| Error::Unsupported("there is no closure polynomial".into()))?;
         let bounds = self.bounds(output, setting.kind);
         let mut cells = self.empty_cells(output, &bounds, setting.kind)?;
-        let solve = |cell: &Cell| Self::solved(entry, case, setting, &cell.sample);
+        let solve = |cell: &Cell| subject.with(setting, &cell.sample).real_modes();
         let solved: Vec<Option<usize>> = cells.par_iter().map(solve).collect();
         for (cell, solved) in cells.iter_mut().zip(solved) {
             cell.solved = solved;
@@ -197,7 +191,7 @@ impl Source {
         });
         let zeros: Vec<Zero> = zeros.collect();
         let back = -self.exact.from.clone();
-        let factors = output.discriminant.square_free_decomposition().into_iter();
+        let factors = output.factors.iter();
         let counted = |f: &Univariate<Integer>| PlaneCurve::of_input(f).counted_from(&back).coefficient(0);
         let given = setting.value.as_ref().map(|value| natural(value, setting.kind));
         Ok(Cells {
@@ -210,9 +204,9 @@ impl Source {
             polynomial: output.charts[0].curve.counted_from(&back).polynomial(),
             discriminant: factors
                 .filter(|(f, _)| f.degree() > Some(0))
-                .map(|(f, k)| (counted(&f).primitive_part(), k))
+                .map(|(f, k)| (counted(f).primitive_part(), *k))
                 .collect(),
-            verdict: self.verdict(entry, &cells),
+            verdict: self.verdict(subject.is_rounded(setting), &cells),
             zeros,
             cells,
         })
@@ -368,25 +362,17 @@ impl Source {
         (!under.is_zero()).then(|| (x + from) / under)
     }
 
-    /// The number of real modes that the solver lists, if it knows that none is missing.
-    fn solved(entry: &Entry, case: &Case, setting: &Setting, sample: &Rational) -> Option<usize> {
-        let (mut entry, mut case) = (entry.clone(), case.clone());
-        entry.limits.clear();
-        setting.put(&mut entry, &mut case, sample);
-        entry.cases = vec![case];
-        let mechanism = Mechanism::prepare(&entry).ok()?;
-        let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
-        let solution = mechanism.solve(&entry.cases[0], Roots::All, &mut workspace, &mut assembly).ok()?;
-        let is_complete = matches!(solution.verdict.status, Status::Complete | Status::Unreachable);
-        is_complete.then(|| solution.modes.iter().filter(|mode| mode.real && !mode.near).count())
-    }
-
-    fn verdict(&self, entry: &Entry, cells: &[Cell]) -> CellsVerdict {
+    fn verdict(&self, is_rounded: bool, cells: &[Cell]) -> CellsVerdict {
         let is_other = |cell: &&Cell| cell.solved.is_some_and(|solved| solved != cell.modes);
         let verdict = |proof: Proof, code, reason: &str| CellsVerdict { proof, code, reason: reason.to_owned() };
         if cells.iter().any(|cell| is_other(&cell)) {
             let reason = "not proved: at some sample point the solver lists another number of real modes than the closure polynomial \
                           has real roots";
+            return verdict(Proof::None, Code::CellsNotMatched, reason);
+        }
+        if self.proof == Proof::None {
+            let reason = "not proved: the roots of the closure polynomial and the assemblies of the file are not as many, or a displacement \
+                          may be infinite";
             return verdict(Proof::None, Code::CellsNotMatched, reason);
         }
         if self.is_probable && cells.iter().any(|cell| cell.solved.is_none()) {
@@ -400,7 +386,7 @@ impl Source {
         }
         let reason = "between neighbouring zeros of the exact discriminant the real roots of the closure polynomial, one for each \
                       real mode, never meet";
-        verdict(self.proof.of_rounded(entry.rounded), Code::CellsProved, reason)
+        verdict(self.proof.of_rounded(is_rounded), Code::CellsProved, reason)
     }
 }
 

@@ -5,7 +5,7 @@ use super::plane_curve::{Integral, PlaneCurve, S, T, in_one, integral};
 use super::relation::{Content, InOutput, Relation};
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
-use crate::algebra::real_roots::RealRoot;
+use crate::algebra::real_roots::{RealRoot, roots_of_factors};
 use crate::algebra::resultant::resultant;
 use crate::algebra::ring::{Domain, Ring};
 use crate::algebra::univariate::Univariate;
@@ -64,8 +64,9 @@ pub(in crate::internal::sweep) struct Output {
     pub kind: Variable,
     /// By the half tangent of the input, and by that of the input less half a turn.
     pub charts: [Chart; 2],
-    /// By the output, as a form where that is an angle; in the half tangent of the input.
-    pub discriminant: Univariate<Integer>,
+    /// The square-free factors of the discriminant by the output, as a form where that is an angle, each with its multiplicity; in the half
+    /// tangent of the input.
+    pub factors: Vec<(Univariate<Integer>, usize)>,
     pub criticals: Vec<Critical>,
     /// Inputs at which every output is one of a configuration: the loop moves while its input stands still.
     pub standing: Vec<f64>,
@@ -179,13 +180,14 @@ impl Output {
             Content::Nothing => (one(), one()),
             Content::Open => (one(), content),
         };
-        let criticals = criticals(&discriminant, infinite, &locked);
+        let factors = discriminant.square_free_decomposition();
+        let criticals = criticals(&factors, infinite, &locked);
         let gap = relation.gap.iter().map(|p| PlaneCurve::of(&integral(p).polynomial)).collect();
         let parallel = parallel.iter().map(PlaneCurve::of).collect();
         let chart = Chart { curve, parallel, gap, dependent, together, common, pole };
         let charts = [chart.clone(), chart.half_turned()];
         let standing = real_roots(&standing).iter_mut().map(RealRoot::to_f64).collect();
-        Ok(Some(Self { joint: relation.output, kind: relation.kind, charts, discriminant, criticals, standing }))
+        Ok(Some(Self { joint: relation.output, kind: relation.kind, charts, factors, criticals, standing }))
     }
 
     /// The critical inputs between two inputs of a chart, `None` where one of these is critical itself.
@@ -249,31 +251,32 @@ fn discriminant(f: &Polynomial<Int>) -> Univariate<Integer> {
     all.checked_div_exact(&leading).map_or_else(Univariate::zero, |quotient| of_input(&quotient))
 }
 
-/// The real roots of all of them, those of the discriminant once.
+/// The real roots of all of them, those of the discriminant, of which the square-free factors are given, once.
 fn criticals(
-    discriminant: &Univariate<Integer>,
+    discriminant: &[(Univariate<Integer>, usize)],
     infinite: impl Iterator<Item = Univariate<Integer>>,
     content: &Univariate<Integer>,
 ) -> Vec<Critical> {
     let mut criticals = Vec::new();
-    let mut add = |polynomial: &Univariate<Integer>, event: &dyn Fn(usize) -> Event| {
-        let minimal = Arc::new(polynomial.square_free_part());
-        criticals.extend(real_roots(polynomial).into_iter().map(|mut root| {
+    let mut add = |factors: &[(Univariate<Integer>, usize)], event: &dyn Fn(usize) -> Event| {
+        let minimal = factors.iter().fold(Univariate::one(), |product, (factor, _)| product.mul(factor));
+        let minimal = Arc::new(minimal);
+        criticals.extend(roots_of_factors(factors).into_iter().map(|mut root| {
             let (event, value) = (event(root.multiplicity()), root.to_f64());
             Critical { root, minimal: Arc::clone(&minimal), event, value }
         }));
     };
     add(discriminant, &Event::Meeting);
-    let mut known = discriminant.clone();
+    let mut known = discriminant.iter().fold(Univariate::one(), |product, (factor, _)| product.mul(factor));
     for polynomial in infinite {
         if polynomial.degree() > Some(0) {
             let square_free = polynomial.square_free_part();
             let rest = square_free.quotient(&square_free.gcd(&known)).unwrap_or(square_free);
-            add(&rest, &|_| Event::Infinity);
+            add(&rest.square_free_decomposition(), &|_| Event::Infinity);
             known = known.mul(&rest);
         }
     }
-    add(content, &|_| Event::Locked);
+    add(&content.square_free_decomposition(), &|_| Event::Locked);
     criticals.sort_by(|a, b| a.value.total_cmp(&b.value));
     criticals
 }

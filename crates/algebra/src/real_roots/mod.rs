@@ -100,20 +100,36 @@ impl Univariate<Integer> {
     pub fn real_roots(&self) -> Vec<RealRoot> {
         assert!(self.degree().is_some(), "every number is a root of zero");
         let zeros = self.coefficients().iter().take_while(|c| **c == 0).count();
-        let mut roots = Vec::new();
-        if zeros > 0 {
-            let polynomial = Arc::new(Univariate::x());
-            roots.push(RealRoot { polynomial, multiplicity: zeros, place: Place::At(Integer::new(), 0) });
-        }
         let rest = Univariate::new(self.coefficients()[zeros..].to_vec());
-        for (factor, multiplicity) in rest.square_free_decomposition() {
+        let mut factors = rest.square_free_decomposition();
+        if zeros > 0 {
+            factors.insert(0, (Univariate::x(), zeros));
+        }
+        roots_of_factors(&factors)
+    }
+}
+
+/// Returns the distinct real roots of a product from left to right, as [`Univariate::real_roots`] does, if its square-free factors are known.
+/// The factors are not zero, have no multiple roots and no roots in common; each has the multiplicity beside it.
+#[must_use]
+pub fn roots_of_factors(factors: &[(Univariate<Integer>, usize)]) -> Vec<RealRoot> {
+    let mut roots = Vec::new();
+    for (factor, multiplicity) in factors {
+        let multiplicity = *multiplicity;
+        let is_root = factor.coefficients().first().is_some_and(|c| *c == 0);
+        if is_root {
+            let polynomial = Arc::new(Univariate::x());
+            roots.push(RealRoot { polynomial, multiplicity, place: Place::At(Integer::new(), 0) });
+        }
+        let factor = Univariate::new(factor.coefficients()[usize::from(is_root)..].to_vec());
+        if factor.degree() > Some(0) {
             let places = isolate(factor.coefficients().to_vec()).into_iter();
             let polynomial = Arc::new(factor);
             roots.extend(places.map(|place| RealRoot { polynomial: polynomial.clone(), multiplicity, place }));
         }
-        separate(&mut roots);
-        roots
     }
+    separate(&mut roots);
+    roots
 }
 
 impl Univariate<Rational> {

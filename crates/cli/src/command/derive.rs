@@ -2,6 +2,7 @@
 
 use super::arguments::DeriveOptions;
 use super::bless;
+use super::discriminant::{self, Asked};
 use super::exit::{Exit, Fault, unexpected};
 use super::output::Output;
 use super::seed::plant;
@@ -13,11 +14,12 @@ use looproot::internal::derivation::{Derivation, Way, derive_by, derive_with_sym
 use looproot::internal::error::Error;
 use looproot::internal::report::derivation::{json, paper, system, text, verdict};
 use looproot::internal::report::document::complete;
+use looproot::internal::report::json::kind;
 use looproot::internal::report::{surface as surfaces, symbolic, ways};
-use looproot::internal::sweep::derive_any;
+use looproot::internal::sweep::{EntryCase, derive_any};
 use looproot_algebra::number::{Number, Quantity};
 use rug::Rational;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::io::Write;
 
 /// Derives closure equations and closure polynomial of the requested case, else of the first one.
@@ -60,7 +62,19 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
     let index = wanted(&options.asked, mechanism, &mut entry)?.start;
     let case = &entry.cases[index];
     if let Some(names) = &options.discriminant {
-        return super::discriminant::run(options, mechanism, &whole, (&entry, index), names);
+        let asked = Asked {
+            subject: EntryCase::new(&entry, case),
+            title: &entry.title,
+            reading: &entry.reading,
+            place: &|error| in_place(error, mechanism, &entry),
+            document: &|mut value| {
+                value["title"] = json!(entry.title);
+                value["kind"] = json!(kind(entry.kind()));
+                value["case"] = json!(index + 1);
+                document(value, &whole)
+            },
+        };
+        return discriminant::run(options, mechanism, &asked, names);
     }
     if let Some(way) = options.by {
         return by(options, mechanism, &whole, (&entry, index), way);

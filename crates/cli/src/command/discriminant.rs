@@ -1,32 +1,38 @@
 //! `looproot derive --discriminant`
 
 use super::arguments::DeriveOptions;
-use super::derive::document;
 use super::exit::{Exit, Fault};
 use super::output::Output;
 use super::solve::stop_on_interrupt;
-use super::wanted::in_place;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use looproot::internal::catalogue::entry::Entry;
 use looproot::internal::error::Error;
+use looproot::internal::kinematics::closed_loop::Variable;
 use looproot::internal::report::cells::{is_map_proved, json, map_json, map_text, map_verdict, text, verdict};
 use looproot::internal::report::cells_picture::{map_svg, svg};
-use looproot::internal::sweep::{MapWanted, cell_map, cells, is_angle};
-use looproot_algebra::number::{Angle, Number, Quantity};
+use looproot::internal::sweep::{MapWanted, Subject, cell_map, cells};
+use looproot_algebra::number::{Angle, Number, Quantity, Reading};
+use serde_json::Value;
 use std::io::Write;
 use std::sync::atomic::Ordering;
 
+/// A mechanism of which cells are printed.
+pub struct Asked<'a, S> {
+    /// What has the cells.
+    pub subject: S,
+    /// The title of its file.
+    pub title: &'a str,
+    /// How numbers of the file and of options are read.
+    pub reading: &'a Reading,
+    /// Adds the place in the file to an error.
+    pub place: &'a dyn Fn(Error) -> Error,
+    /// Adds the keys about the file to a document.
+    pub document: &'a dyn Fn(Value) -> String,
+}
+
 /// Prints the cells of one parameter, or of two.
-pub fn run(
-    options: &DeriveOptions,
-    mechanism: &str,
-    whole: &Entry,
-    (entry, index): (&Entry, usize),
-    names: &str,
-) -> Result<Exit, Fault> {
+pub fn run<S: Subject>(options: &DeriveOptions, mechanism: &str, asked: &Asked<'_, S>, names: &str) -> Result<Exit, Fault> {
     let names: Vec<&str> = names.split(',').map(str::trim).filter(|name| !name.is_empty()).collect();
-    let case = &entry.cases[index];
-    let place = |error| in_place(error, mechanism, entry);
+    let Asked { subject, title, reading, place, document } = asked;
     let (written, exit) = match names.as_slice() {
         [name] => {
             if options.from.is_some() {
@@ -35,11 +41,11 @@ pub fn run(
                 );
                 return Err(Error::Invalid(message).into());
             }
-            let found = cells(entry, case, name).map_err(place)?;
+            let found = cells(subject, name).map_err(place)?;
             let written = if options.json {
-                document(json(entry, index + 1, &found), whole)
+                document(json(&found))
             } else if options.svg {
-                svg(entry, &found)
+                svg(title, &found)
             } else if options.quiet {
                 verdict(&found) + "\n"
             } else {
@@ -48,18 +54,17 @@ pub fn run(
             (written, if found.verdict.proof.is_proved() { Exit::Complete } else { Exit::NotProved })
         }
         [one, two] => {
-            let turns = is_angle(entry, case, one)?;
-            let range = range(options, entry, turns)?;
+            let range = range(options, reading, subject.parameter(one)?.kind)?;
             let stop = stop_on_interrupt();
             let running = || !stop.load(Ordering::Relaxed);
             let progress = progress(options);
             let wanted = MapWanted { parameters: [one, two], range, columns: options.columns };
-            let found = cell_map(entry, case, wanted, running, || progress.inc(1)).map_err(place)?;
+            let found = cell_map(subject, wanted, running, || progress.inc(1)).map_err(place)?;
             progress.finish_and_clear();
             let written = if options.json {
-                document(map_json(entry, index + 1, &found), whole)
+                document(map_json(&found))
             } else if options.svg {
-                map_svg(entry, &found)
+                map_svg(title, &found)
             } else if options.quiet {
                 map_verdict(&found) + "\n"
             } else {
@@ -84,13 +89,12 @@ pub fn run(
 }
 
 /// Returns the range of the first parameter, radians or metres.
-fn range(options: &DeriveOptions, entry: &Entry, is_angle: bool) -> Result<Option<[f64; 2]>, Error> {
+fn range(options: &DeriveOptions, reading: &Reading, kind: Variable) -> Result<Option<[f64; 2]>, Error> {
     let (Some(from), Some(to)) = (&options.from, &options.to) else { return Ok(None) };
     let end = |name: &str, text: &str| {
-        let value = if is_angle {
-            Angle::parse(text, &entry.reading).map(|angle| angle.radians())
-        } else {
-            Number::parse(text, Quantity::Length, &entry.reading).map(|length| length.to_f64())
+        let value = match kind {
+            Variable::Rotation => Angle::parse(text, reading).map(|angle| angle.radians()),
+            Variable::Translation => Number::parse(text, Quantity::Length, reading).map(|length| length.to_f64()),
         };
         value.map_err(|error| match error.into() {
             Error::Invalid(message) => Error::Invalid(format!("{name}: {message}")),

@@ -1,6 +1,7 @@
 //! `looproot derive` for linkages.
 
 use super::arguments::DeriveOptions;
+use super::discriminant::{self, Asked};
 use super::exit::{Exit, Fault};
 use super::linkage::{posed, wanted};
 use super::output::Output;
@@ -11,6 +12,7 @@ use looproot::internal::error::Error;
 use looproot::internal::kinematics::linkage::{Accuracy, Gaussian, Given};
 use looproot::internal::linkage::cognates::{COUPLER, cognates};
 use looproot::internal::report::{linkage_derivation as report, linkage_symbolic as symbolic};
+use looproot::internal::sweep::LinkageCase;
 use rug::Rational;
 use std::io::Write;
 
@@ -22,6 +24,16 @@ pub fn run(options: &DeriveOptions, mechanism: &str, file: &LinkageFile) -> Resu
     let case = &file.cases[index];
     let line = case.given.first().map_or(case.line, Given::line);
     let in_place = |error: Error| error.at(mechanism, line);
+    if let Some(names) = &options.discriminant {
+        let asked = Asked {
+            subject: LinkageCase::new(&file.linkage, file.exact, &case.given, case.accuracy),
+            title: &file.heading.title,
+            reading: &file.reading,
+            place: &in_place,
+            document: &|value| format!("{}\n", report::completed(file, index + 1, value)),
+        };
+        return discriminant::run(options, mechanism, &asked, names);
+    }
     let (written, exit) = if let (true, Some(asked)) = (options.cognates, &options.trace) {
         let (body, _, place) = file.point(asked)?;
         let found = cognates(&file.linkage, body, &place).map_err(in_place)?;
