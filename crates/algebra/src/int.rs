@@ -9,11 +9,12 @@ use std::{cmp::Ordering, fmt};
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Int(Repr);
 
-/// Large never holds a number that fits Small, so that equality is structural.
+/// Large never holds a number that fits Small, so that equality is structural. The word of a small one lies where a large one
+/// has its length, so that both take 16 bytes, and a large one is allocated once.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 enum Repr {
     Small(i64),
-    Large(Box<Integer>),
+    Large(Integer),
 }
 
 impl Int {
@@ -75,7 +76,7 @@ impl Int {
     pub fn to_f64(&self) -> f64 {
         match &self.0 {
             Repr::Small(n) => *n as f64,
-            Repr::Large(n) => super::number::nearest_f64(&Rational::from(&**n)),
+            Repr::Large(n) => super::number::nearest_f64(&Rational::from(n)),
         }
     }
 
@@ -165,7 +166,7 @@ impl From<u64> for Int {
 impl From<i128> for Int {
     #[inline]
     fn from(n: i128) -> Self {
-        i64::try_from(n).map_or_else(|_| Self(Repr::Large(Box::new(Integer::from(n)))), Self::from)
+        i64::try_from(n).map_or_else(|_| Self(Repr::Large(Integer::from(n))), Self::from)
     }
 }
 
@@ -173,7 +174,7 @@ impl From<Integer> for Int {
     fn from(n: Integer) -> Self {
         match n.to_i64() {
             Some(n) => Self(Repr::Small(n)),
-            None => Self(Repr::Large(Box::new(n))),
+            None => Self(Repr::Large(n)),
         }
     }
 }
@@ -192,8 +193,8 @@ impl Ring for Int {
                 Some(sum) => Self(Repr::Small(sum)),
                 None => Self::from(i128::from(*a) + i128::from(*b)),
             },
-            (Repr::Small(a), Repr::Large(b)) | (Repr::Large(b), Repr::Small(a)) => Self::from((&**b + *a).complete()),
-            (Repr::Large(a), Repr::Large(b)) => Self::from((&**a + &**b).complete()),
+            (Repr::Small(a), Repr::Large(b)) | (Repr::Large(b), Repr::Small(a)) => Self::from((b + *a).complete()),
+            (Repr::Large(a), Repr::Large(b)) => Self::from((a + b).complete()),
         }
     }
     #[inline]
@@ -203,9 +204,9 @@ impl Ring for Int {
                 Some(difference) => Self(Repr::Small(difference)),
                 None => Self::from(i128::from(*a) - i128::from(*b)),
             },
-            (Repr::Small(a), Repr::Large(b)) => Self::from((*a - &**b).complete()),
-            (Repr::Large(a), Repr::Small(b)) => Self::from((&**a - *b).complete()),
-            (Repr::Large(a), Repr::Large(b)) => Self::from((&**a - &**b).complete()),
+            (Repr::Small(a), Repr::Large(b)) => Self::from((*a - b).complete()),
+            (Repr::Large(a), Repr::Small(b)) => Self::from((a - *b).complete()),
+            (Repr::Large(a), Repr::Large(b)) => Self::from((a - b).complete()),
         }
     }
     #[inline]
@@ -215,8 +216,8 @@ impl Ring for Int {
                 Some(product) => Self(Repr::Small(product)),
                 None => Self::from(i128::from(*a) * i128::from(*b)),
             },
-            (Repr::Small(a), Repr::Large(b)) | (Repr::Large(b), Repr::Small(a)) => Self::from((&**b * *a).complete()),
-            (Repr::Large(a), Repr::Large(b)) => Self::from((&**a * &**b).complete()),
+            (Repr::Small(a), Repr::Large(b)) | (Repr::Large(b), Repr::Small(a)) => Self::from((b * *a).complete()),
+            (Repr::Large(a), Repr::Large(b)) => Self::from((a * b).complete()),
         }
     }
     #[inline]
@@ -229,9 +230,9 @@ impl Ring for Int {
             (Repr::Small(sum), _, _) => *self = Self::from(*sum).add(&a.mul(b)),
             (Repr::Large(sum), a, b) => {
                 match (a, b) {
-                    (Repr::Small(a), Repr::Small(b)) => **sum += i128::from(*a) * i128::from(*b),
-                    (Repr::Small(a), Repr::Large(b)) | (Repr::Large(b), Repr::Small(a)) => **sum += &**b * *a,
-                    (Repr::Large(a), Repr::Large(b)) => **sum += &**a * &**b,
+                    (Repr::Small(a), Repr::Small(b)) => *sum += i128::from(*a) * i128::from(*b),
+                    (Repr::Small(a), Repr::Large(b)) | (Repr::Large(b), Repr::Small(a)) => *sum += b * *a,
+                    (Repr::Large(a), Repr::Large(b)) => *sum += a * b,
                 }
                 if let Some(small) = sum.to_i64() {
                     *self = Self::from(small);
@@ -260,7 +261,7 @@ impl Ring for Int {
     fn neg(&self) -> Self {
         match &self.0 {
             Repr::Small(n) => n.checked_neg().map_or_else(|| Self::from(-i128::from(*n)), Self::from),
-            Repr::Large(n) => Self::from((-&**n).complete()),
+            Repr::Large(n) => Self::from((-n).complete()),
         }
     }
     #[inline(always)]
@@ -285,7 +286,7 @@ impl Domain for Int {
             (Repr::Small(a), Repr::Small(b)) => (a % b == 0).then(|| Self::from(a / b)),
             (Repr::Small(0), Repr::Large(_)) => Some(Self::zero()),
             // i64::MIN by 2^63 is the one quotient of a small number by a large one.
-            (Repr::Small(a), Repr::Large(b)) => (**b == -i128::from(*a)).then(|| Self::from(-1_i64)),
+            (Repr::Small(a), Repr::Large(b)) => (*b == -i128::from(*a)).then(|| Self::from(-1_i64)),
             (Repr::Large(a), Repr::Small(b)) => {
                 let (quotient, rest) = a.div_rem_ref(&Integer::from(*b)).complete();
                 rest.is_zero().then(|| Self::from(quotient))
