@@ -9,6 +9,7 @@ mod grading;
 mod heap;
 mod image;
 mod kronecker;
+mod planes;
 mod power;
 mod product;
 mod quotient;

@@ -3,6 +3,7 @@
 use super::blocks::{self, Accumulator, Blocks, Grid, Triple};
 use super::heap::Key;
 use super::kronecker::{Kronecker, Numbers};
+use super::planes::{Planes, Sums};
 use super::{Polynomial, Size};
 use crate::monomial::Packing;
 use crate::ring::Ring;
@@ -175,9 +176,21 @@ impl<R: Ring> Polynomial<R> {
         };
         if let Some((a, b)) = &numbers {
             let limit = pairs * pair_cost(bound, a, b);
-            let substituted = Kronecker::new(packing, &degrees, (left, a), (right, b)).filter(|k| k.cost() < limit);
+            let (left, right) = ((left, a), (right, b));
+            let substituted = Kronecker::new(packing, &degrees, left, right).filter(|k| k.cost() < limit);
+            let limit = substituted.as_ref().map_or(limit, Kronecker::cost);
+            let planes = Planes::new(packing, &degrees, (bound, limit), left, right);
+            if let Some(planes) = planes.filter(|planes| planes.cost() < limit) {
+                let mut coefficients = Vec::with_capacity(planes.room());
+                let monomials = planes.product(&mut |sums| match sums {
+                    Sums::Words(words) => coefficients.extend(words.iter().map(|n| R::from_wide((*n).into()))),
+                    Sums::Wide(n) => coefficients.push(R::from_wide(n)),
+                    Sums::Large(n) => coefficients.push(R::from_large(n)),
+                });
+                return Self { packing, monomials, coefficients };
+            }
             if let Some(substitution) = substituted {
-                let (monomials, coefficients) = substitution.product((left, a), (right, b));
+                let (monomials, coefficients) = substitution.product(left, right);
                 return Self { packing, monomials, coefficients };
             }
         }
