@@ -7,7 +7,7 @@
 
 use super::bernstein::{Expansion, Source};
 use super::cell::Cell;
-use super::evaluate::{length, sign, value_at};
+use super::evaluate::{length, shifted, sign, value_at};
 use super::fixed::Wide;
 use super::sample::Sampler;
 use rug::Integer;
@@ -43,6 +43,14 @@ pub(super) enum Place {
 }
 
 impl Place {
+    /// Returns the left end of the interval, as a numerator and the exponent of its power of two.
+    pub(super) fn start(&self) -> (&Integer, i64) {
+        match self {
+            Self::At(numerator, exponent) => (numerator, *exponent),
+            Self::Within(cell, ..) => (&cell.numerator, cell.exponent),
+        }
+    }
+
     /// Returns the place of the root of `p(-x)` that belongs to this root of `p(x)`.
     fn mirrored(self) -> Self {
         match self {
@@ -69,7 +77,8 @@ pub(super) fn isolate(coefficients: Vec<Integer>) -> Vec<Place> {
 /// Returns the places of the positive roots.
 fn positive_roots(source: &Source) -> Vec<Place> {
     let most = sign_changes(&source.coefficients);
-    let mut search = Search { source, places: Vec::new(), most, bits: FIRST_PRECISION, value_bits: FIRST_PRECISION };
+    let mut search =
+        Search { source, places: Vec::new(), most, bits: FIRST_PRECISION, value_bits: FIRST_PRECISION, slope: None };
     if let Some(k) = bound(source).and_then(|k| skip_empty(source, k)) {
         let first = largest_of_real(source).filter(|first| (k - MOST_DOUBLINGS..k).contains(first)).unwrap_or(k);
         search.run(first, k);
@@ -236,6 +245,8 @@ struct Search<'a> {
     /// The precisions in which expansions, and values, are tried first.
     bits: i64,
     value_bits: i64,
+    /// The coefficients of the derivative, once they are needed.
+    slope: Option<Vec<Integer>>,
 }
 
 impl Search<'_> {
@@ -385,17 +396,23 @@ impl Search<'_> {
     /// Returns the far smaller cell to which Newton's step for an m-fold root leads from either end, if it has all m changes.
     fn leap(&mut self, node: &Node) -> Option<Node> {
         let Cluster { changes, leap, .. } = node.cluster;
-        let b = self.source.expand_long(&node.cell, i64::from(leap) + LEAP_GUARD, &mut self.bits);
-        let n = b.len() - 1;
         let last = (Integer::from(1) << leap) - 1_u32;
-        // m p/p' at an end, in units of the small cells; p' is n times the difference of neighbours.
-        let step = |end: &Integer, inner: &Integer| {
-            let slope = Integer::from(end - inner) * n;
-            (slope != 0).then(|| (Integer::from(end * changes) << leap) / slope)
+        let coefficients = &self.source.coefficients;
+        let slope = self.slope.get_or_insert_with(|| {
+            (1_u32..).zip(&coefficients[1..]).map(|(i, c)| Integer::from(c * i)).collect::<Vec<Integer>>()
+        });
+        let (bits, exponent, wanted) = (&mut self.value_bits, node.cell.exponent, i64::from(leap) + LEAP_GUARD);
+        // m p/p' at an end, in units of the small cells.
+        let mut step = |numerator: &Integer| {
+            let value = value_at(coefficients, numerator, exponent, wanted, bits);
+            let slope = value_at(slope, numerator, exponent, wanted, bits);
+            let shift = i64::from(leap) + value.unit - slope.unit - exponent;
+            (slope.mantissa != 0).then(|| shifted(&(value.mantissa * changes), shift) / slope.mantissa)
         };
-        let from_right = step(&b[n], &b[n - 1]).map(|step| &last - step);
+        let from_left = step(&node.cell.numerator).map(|step| -step);
+        let from_right = step(&node.cell.end()).map(|step| &last - step);
         let mut tried = None;
-        for guess in [step(&b[0], &b[1]), from_right].into_iter().flatten() {
+        for guess in [from_left, from_right].into_iter().flatten() {
             let index = guess.clamp(&Integer::new(), &last);
             if tried.as_ref() == Some(&index) {
                 continue;

@@ -66,7 +66,7 @@ impl RealRoot {
 /// Sorts the roots and shrinks their intervals until no two of them touch.
 fn separate(roots: &mut [RealRoot]) {
     loop {
-        roots.sort_by_cached_key(|root| root.bounds().0);
+        roots.sort_by(RealRoot::compare_start);
         let mut touched = false;
         for i in 1..roots.len() {
             let (left, right) = roots.split_at_mut(i);
@@ -75,7 +75,9 @@ fn separate(roots: &mut [RealRoot]) {
             while a.touches(b) {
                 touched = true;
                 a.shrink(bits);
-                b.shrink(bits);
+                if a.touches(b) {
+                    b.shrink(bits);
+                }
                 bits *= 2;
             }
         }

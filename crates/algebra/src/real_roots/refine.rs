@@ -1,7 +1,7 @@
 //! Shrinking the interval of a root, and its f64 values.
 
 use super::RealRoot;
-use super::cell::{Cell, dyadic};
+use super::cell::{Cell, compare, dyadic};
 use super::evaluate::{Value, length, shifted, sign, value_at};
 use super::isolate::{Guess, Place};
 use rug::{Integer, Rational};
@@ -74,10 +74,18 @@ impl RealRoot {
         }
     }
 
+    /// Compares the left ends of the intervals of two roots.
+    pub(super) fn compare_start(&self, other: &Self) -> Ordering {
+        compare(self.place.start(), other.place.start())
+    }
+
     /// Returns whether the closed intervals of two roots have a point in common.
     pub(super) fn touches(&self, other: &Self) -> bool {
-        let ((lo, hi), (other_lo, other_hi)) = (self.bounds(), other.bounds());
-        lo <= other_hi && other_lo <= hi
+        let begins_by_the_end = |one: &Self, other: &Self| match &other.place {
+            Place::At(..) => compare(one.place.start(), other.place.start()).is_le(),
+            Place::Within(cell, ..) => compare(one.place.start(), (&cell.end(), cell.exponent)).is_le(),
+        };
+        begins_by_the_end(self, other) && begins_by_the_end(other, self)
     }
 
     /// Divides the width of the interval by `2^bits`.
@@ -115,11 +123,24 @@ impl RealRoot {
         let mut ends = None;
         while cell.exponent > target {
             bits = bits.min(u32::try_from(cell.exponent - target).unwrap_or(u32::MAX));
+            if bits == 1 {
+                // The sign in the middle is enough.
+                let (middle, exponent) = (Integer::from(&cell.numerator << 1_u32) + 1_u32, cell.exponent - 1);
+                let index = match sign(&value(&middle, exponent, 0).mantissa) {
+                    0 => {
+                        self.place = Place::At(middle, exponent);
+                        return;
+                    }
+                    sign => Integer::from(i32::from(sign == left)),
+                };
+                (ends, known) = (None, known.and_then(|guess| guess.within(&index, 1)));
+                bits = known.map_or(2, |guess| guess.bits);
+                cell = Cell::new(middle - 1_u32 + index, exponent);
+                continue;
+            }
             let parts = Integer::from(1) << bits;
             let guess = if let Some(guess) = known {
                 guess.corner(bits)
-            } else if bits == 1 {
-                Integer::from(1)
             } else {
                 let (from, to) = ends.get_or_insert_with(|| {
                     (value(&cell.numerator, cell.exponent, bits), value(&cell.end(), cell.exponent, bits))

@@ -226,6 +226,18 @@ mod tests {
         }
     }
 
+    /// Clusters of integers far apart, to which Newton's steps lead; no two intervals meet.
+    #[test]
+    fn clusters_of_integers() {
+        for (clusters, size, distance) in [(3_i64, 3_i64, 10_i64), (4, 5, 1_000_000), (6, 8, 1_000_000_000)] {
+            let cluster = |i: i64| (0..size).map(move |j| (distance * i + j, 1));
+            let roots: Vec<(i64, i64)> = (-1..clusters - 1).flat_map(cluster).collect();
+            isolates(&with_roots(&roots), &roots);
+            let found = with_roots(&roots).real_roots();
+            assert!(found.windows(2).all(|pair| pair[0].bounds().1 < pair[1].bounds().0));
+        }
+    }
+
     /// Signs that f64 calls certain are those of exact values, also where roots lie close together or at points of the grid.
     #[test]
     fn certain_signs_are_right() {
