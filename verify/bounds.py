@@ -1,63 +1,49 @@
-"""Proofs that no solution is missing: each is an upper bound on the number of isolated solutions that the modes meet."""
-from chains import inverse
-from eliminants import eliminant
-from quantities import Refused, Unreadable, count, fields
+"""Theorems 2, 3 and 8 of docs/certificate.md: how many solutions a mechanism of a kind, or of a geometry, can have."""
+from flint import arb
+
+from closures import SLIDE, TURN
+from motions import column, cross, dot, inverse
+from quantities import is_exact
+
+THREE_JOINTS = {0: 4, 1: 4, 2: 2, 3: 1}  # the ways in which they bring a point to its place, by their number of translations
 
 
-def check_proof(system, modes, proof):
-    if len(proof) != 1:
-        raise Refused(f"proof: found {len(proof)} items, expected one that bounds the number of solutions")
-    item = proof[0]
-    kind = item.get("kind") if isinstance(item, dict) else None
-    if kind not in KINDS:
-        raise Unreadable(f"proof: found the kind {str(kind)[:40]!r}, expected one of {', '.join(KINDS)}")
-    bound, value = KINDS[kind](system, item), count(fields(item, ("kind", "value"), ("aid",))[1])
-    if bound is None or value != bound:
-        raise Refused(f"proof: {kind}: the value is {value}, where the bound is {'not known' if bound is None else bound}")
-    if len(modes) != bound:
-        raise Refused(f"proof: {kind}: at most {bound} solutions, and {len(modes)} modes are proved")
-
-
-def general(system, item):
-    """Theorem 2: what mechanisms of this kind can have at all."""
-    fields(item, ("kind", "value"))
-    letters, slides = system.letters, system.letters.count("P")
-    if letters == "platform":
+def general(system):
+    """Theorem 2."""
+    if system.kinds == "platform":
         return 40
-    if "S" not in letters and len(letters) == 6:
-        return {0: 16, 1: 16, 2: 8, 3: 2}.get(slides)
-    return {0: 4, 1: 4, 2: 2, 3: 1}.get(slides) if letters.count("S") == 1 and len(letters) == 4 else None
+    slides = system.kinds.count(SLIDE)
+    if system.spherical:
+        return THREE_JOINTS.get(slides) if len(system.spherical) == 1 else None
+    return {0: 16, 1: 16, 2: 8, 3: 2}.get(slides)
 
 
-def geometry(system, item):
-    """Theorem 3: what the incidences of axes or points allow."""
-    fields(item, ("kind", "value"))
-    if system.letters == "platform":
-        return 16 if system.exact and any(map(three_meet, system.exact)) or system.exact and any(map(in_pairs, system.exact)) else None
+def geometry(system):
+    """Theorem 3."""
+    if system.kinds == "platform":
+        groups = [points for points in (system.base, system.plate) if all(map(is_exact, points))]
+        return 16 if len(groups) == 2 and any(three_meet(points) or in_pairs(points) for points in groups) else None
     return min(filter(None, (of_triple(system, first) for first in range(6))), default=None)
 
 
 def of_triple(system, first):
-    """Three neighbouring axes through a point, or parallel."""
-    if "S" in system.letters or not all(system.turns[(first + k) % 6] for k in range(3)):
+    """Three neighbouring axes that are parallel, or meet in a point."""
+    around = [(first + k) % 6 for k in range(6)]
+    if system.spherical or any(system.kinds[k] == SLIDE for k in around[:3]):
         return None
-    slides = sum(not system.turns[(first + k) % 6] for k in range(3, 6))
-    pair = system.links[first], system.links[(first + 1) % 6]
-    exact = all(link.exact is not None for link in system.links)
-    before, behind = (link.exact if exact else link.balls for link in pair)
-    along = lambda m: m[0][2] == 0 and m[1][2] == 0
-    if along(before) and along(behind):
+    slides = sum(system.kinds[k] == SLIDE for k in around[3:])
+    before, behind = system.links[around[0]], system.links[around[1]]
+    if all(m[0][2] == 0 and m[1][2] == 0 for m in (before, behind)):
         return {0: 8, 1: 4}.get(slides)
-    on_axis = lambda m: m[0][3] == 0 and m[1][3] == 0
+    plain = all(m[0][3] == 0 and m[1][3] == 0 for m in (before, behind)) and behind[2][3] == 0
     one, other = crossing(inverse(before)), crossing(behind)
-    if on_axis(before) and on_axis(behind) and behind[2][3] == 0 or one and other and one[0] * other[1] - other[0] * one[1] == 0:
-        return 2 * {0: 4, 1: 4, 2: 2, 3: 1}[slides]
-    return None
+    meet = plain or one and other and one[0] * other[1] - other[0] * one[1] == 0
+    return 2 * THREE_JOINTS[slides] if meet else None
 
 
 def crossing(m):
     """Where on the z axis its image under a link crosses it, as a quotient."""
-    (x, u), (y, v), (z, w) = ((row[3], row[2]) for row in m[:3])
+    (x, y, z), (u, v, w) = column(m, 3), column(m, 2)
     square = u * u + v * v
     return (z * square - (x * u + y * v) * w, square) if x * v - y * u == 0 and square != 0 else None
 
@@ -67,11 +53,25 @@ def three_meet(points):
 
 
 def in_pairs(points):
-    if any(points.count(point) != 2 for point in points):
+    corners = [point for k, point in enumerate(points) if point not in points[:k]]
+    if len(corners) != 3 or any(points.count(point) != 2 for point in corners):
         return False
-    a, b, c = set(points)
-    (x, y, z), (u, v, w) = ([p - q for p, q in zip(other, a)] for other in (b, c))
-    return any(e != 0 for e in (y * w - z * v, z * u - x * w, x * v - y * u))
+    return any(x != 0 for x in cross(*([x - y for x, y in zip(corner, corners[0])] for corner in corners[1:])))
 
 
-KINDS = {"general-bound": general, "geometry-bound": geometry, "eliminant": eliminant}
+def distance(system):
+    """Theorem 8: whether one side of a closed polygon would be longer than the others together."""
+    if system.kinds != "platform":
+        return all(kind == TURN for kind in system.kinds) and exceeds([length(column(link, 3)) for link in system.links])
+    if any(square < 0 for square in system.squares):
+        return True
+    legs, between = [arb(x).sqrt() for x in system.squares], lambda points, i, j: length([x - y for x, y in zip(points[i], points[j])])
+    return any(exceeds([legs[i], legs[j], between(system.base, i, j), between(system.plate, i, j)]) for i in range(6) for j in range(i))
+
+
+def length(vector):
+    return arb(dot(vector, vector)).sqrt()
+
+
+def exceeds(sides):
+    return any(side > sum(sides[:k] + sides[k + 1:], arb(0)) for k, side in enumerate(sides))

@@ -1,8 +1,12 @@
-"""Numbers of a certificate: decimals, fractions and expressions, enclosed in Arb balls and exact where they are rational."""
+"""Numbers and tables of a certificate. Rational numbers are exact (fmpq), all others balls of Arb; both add and multiply."""
+import ast
+import operator
 import re
-from flint import acb, arb, ctx, fmpq, fmpz
 
-ctx.prec = 384
+from flint import acb, arb, ctx, fmpq
+
+ctx.prec = 384  # bits: more than the 250 of a pose by a quaternion of four integers of 60 bits
+LONGEST = 2000  # characters of a number
 
 
 class Unreadable(Exception):
@@ -13,168 +17,111 @@ class Refused(Exception):
     """An item does not hold: exit code 2."""
 
 
-DECIMAL = re.compile(r"([+-]?)(\d{1,400})(?:\.(\d{1,400}))?(?:[eE]([+-]?\d{1,3}))?\Z")
-FRACTION = re.compile(r"([+-]?)(\d{1,900})/(\d{1,900})\Z")
-TOKEN = re.compile(r"\s*(?:(\d+(?:\.\d*)?(?:[eE][+-]?\d{1,3})?|\.\d+(?:[eE][+-]?\d{1,3})?)|([a-z]+[a-z0-9]*)|([-+*/(),]))")
-HALF_TANGENT = re.compile(r"(-?)2\*atan\((\d{1,400}(?:\.\d{1,400})?|\d{1,900}/\d{1,900})\)\Z")
+class Whole(str):
+    """The digits of a whole number that JSON writes without quotes."""
+
+
+DECIMAL = re.compile(r"([+-]?)(\d{1,900})(?:\.(\d{1,900}))?(?:[eE]([+-]?\d{1,3}))?\Z")
+HALF_TANGENT = re.compile(r"(-?)2\*atan\(([\d./]+)\)\Z")
 RIGHT_ANGLES = {"0": (1, 0), "pi/2": (0, 1), "pi": (-1, 0), "-pi/2": (0, -1), "-pi": (-1, 0)}
-UNITS = {"deg": lambda x: x * arb.pi() / 180, "rad": lambda x: x, "m": lambda x: x, "cm": lambda x: x / 100, "mm": lambda x: x / 1000}
+UNITS = {"deg": arb.pi() / 180, "rad": fmpq(1), "m": fmpq(1), "cm": fmpq(1, 100), "mm": fmpq(1, 1000)}
+UNIT = re.compile(rf"(?<=[\d)i])\s*({'|'.join(UNITS)})\b")
+SIGNS = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
+         ast.UAdd: operator.pos, ast.USub: operator.neg}
+FUNCTIONS = {"sqrt": arb.sqrt, "cos": arb.cos, "sin": arb.sin, "tan": arb.tan, "acos": arb.acos, "asin": arb.asin,
+             "atan": arb.atan, "atan2": arb.atan2}
 
 
-def text_of(value):
-    if not isinstance(value, str) or len(value) > 2000:
-        raise Unreadable(f"found {str(value)[:40]!r}, expected a number as text")
-    return value
-
-
-def whole(digits):
-    return fmpz(int(digits))
-
-
-def decimal(value):
-    """The rational that a decimal is."""
-    match = DECIMAL.match(text_of(value))
+def decimal(text):
+    """The rational number that a decimal is."""
+    match = DECIMAL.match(text) if isinstance(text, str) else None
     if not match:
-        raise Unreadable(f"found {value[:40]!r}, expected a decimal number")
-    sign, head, tail, power = match.groups()
-    tail, power = tail or "", int(power or 0) - len(tail or "")
-    if abs(power) > 800:
-        raise Unreadable(f"found {value[:40]!r}, expected an exponent of at most 400")
-    size = fmpq(whole(head + tail)) * (fmpq(10) ** power if power >= 0 else fmpq(1) / fmpq(10) ** -power)
+        raise Unreadable(f"found {str(text)[:40]!r}, expected a decimal number")
+    sign, whole, tail, power = match.groups(default="")
+    power = int(power or 0) - len(tail)
+    if abs(power) > 1300:
+        raise Unreadable(f"found {text[:40]!r}, expected a smaller exponent")
+    size = fmpq(int(whole + tail)) * fmpq(10) ** max(power, 0) / fmpq(10) ** max(-power, 0)
     return -size if sign == "-" else size
 
 
-def rational(value):
-    """The rational that a decimal or a fraction is; None for other expressions."""
-    match = FRACTION.match(text_of(value))
-    if match:
-        sign, above, below = match.groups()
-        if int(below) == 0:
-            raise Unreadable(f"found {value[:40]!r}, a division by zero")
-        return fmpq(whole(above), whole(below)) * (-1 if sign == "-" else 1)
-    return decimal(value) if DECIMAL.match(value) else None
+def expression(text):
+    """The value of an expression, and whether it has a unit, of which it is the number of metres or radians."""
+    text = str(text)
+    if DECIMAL.match(text):
+        return decimal(text), False
+    try:
+        # A unit binds less tightly than a sum, as `|` does.
+        written = UNIT.sub(r" | \1", text[:LONGEST + 1].strip())
+        tree = ast.parse(written, mode="eval").body if len(written) <= LONGEST and written.isascii() else None
+        value = value_of(tree, written)
+        if not arb(value).is_finite():
+            raise ValueError
+    except (ArithmeticError, MemoryError, RecursionError, SyntaxError, TypeError, ValueError):
+        raise Unreadable(f"found {text[:40]!r}, expected a number") from None
+    return value, isinstance(tree, ast.BinOp) and isinstance(tree.op, ast.BitOr)
 
 
-def number(value):
-    """(ball, rational or None)"""
-    exact = rational(value)
-    return (arb(exact), exact) if exact is not None else (Expression(value).value(), None)
-
-
-def angle(value):
-    """((cos, sin) as balls, (cos, sin) as rationals or None)"""
-    if text_of(value) in RIGHT_ANGLES:
-        pair = tuple(map(fmpq, RIGHT_ANGLES[value]))
-        return tuple(map(arb, pair)), pair
-    match = HALF_TANGENT.match(value)
-    if match:
-        t = rational(match.group(2)) * (-1 if match.group(1) else 1)
-        pair = ((1 - t * t) / (1 + t * t), 2 * t / (1 + t * t))
-        return tuple(map(arb, pair)), pair
-    radians = Expression(value).value()
-    return (radians.cos(), radians.sin()), None
-
-
-class Expression:
-    """sum [unit], with + - * / parentheses, pi, sqrt, and cos, sin, tan, acos, asin, atan, atan2 of radians or `deg`."""
-
-    def __init__(self, text):
-        self.text, self.tokens, at, self.depth = text_of(text), [], 0, 0
-        while text[at:].strip():
-            match = TOKEN.match(text, at)
-            if not match or len(match.group(0)) > 450:
-                self.fail()
-            self.tokens.append(match.group(1) or match.group(2) or match.group(3))
-            at = match.end()
-
-    def fail(self):
-        raise Unreadable(f"found {self.text[:40]!r}, expected a number")
-
-    def value(self):
-        value = self.quantity()
-        if self.tokens or not value.is_finite():
-            self.fail()
-        return value
-
-    def take(self, *symbols):
-        return self.tokens.pop(0) if self.tokens and self.tokens[0] in symbols else None
-
-    def quantity(self):
-        value = self.sum()
-        unit = self.take(*UNITS)
-        return UNITS[unit](value) if unit else value
-
-    def sum(self):
-        self.depth += 1
-        if self.depth > 40:
-            self.fail()
-        value = self.term()
-        while (sign := self.take("+", "-")):
-            value = value + self.term() if sign == "+" else value - self.term()
-        self.depth -= 1
-        return value
-
-    def term(self):
-        value = self.factor()
-        while (sign := self.take("*", "/")):
-            value = value * self.factor() if sign == "*" else value / self.factor()
-        return value
-
-    def factor(self):
-        negative = False
-        while (sign := self.take("+", "-")):
-            negative ^= sign == "-"
-        value = self.primary()
-        return -value if negative else value
-
-    def primary(self):
-        if not self.tokens:
-            self.fail()
-        token = self.tokens.pop(0)
-        if token[0].isdigit() or token[0] == ".":
-            return arb(decimal("0" + token if token[0] == "." else token.rstrip(".") if token[-1] == "." else token))
-        if token == "pi":
+def value_of(node, text):
+    match node:
+        case ast.Constant():
+            return decimal(text[node.col_offset:node.end_col_offset])
+        case ast.Name(id="pi"):
             return arb.pi()
-        arguments = [self.quantity()] if token == "(" or self.take("(") else self.fail()
-        while self.take(","):
-            arguments.append(self.quantity())
-        if not self.take(")"):
-            self.fail()
-        one = {"(": lambda x: x, "sqrt": arb.sqrt, "cos": arb.cos, "sin": arb.sin, "tan": arb.tan, "acos": arb.acos,
-               "asin": arb.asin, "atan": arb.atan}
-        if token in one and len(arguments) == 1:
-            return one[token](arguments[0])
-        if token == "atan2" and len(arguments) == 2:
-            return arb.atan2(*arguments)
-        self.fail()
+        case ast.BinOp(left=left, op=ast.BitOr(), right=ast.Name(id=unit)) if unit in UNITS:
+            return value_of(left, text) * UNITS[unit]
+        case ast.BinOp(left=left, op=sign, right=right) if type(sign) in SIGNS:
+            return SIGNS[type(sign)](value_of(left, text), value_of(right, text))
+        case ast.UnaryOp(op=sign, operand=operand) if type(sign) in SIGNS:
+            return SIGNS[type(sign)](value_of(operand, text))
+        case ast.Call(func=ast.Name(id=name), args=arguments, keywords=[]) if name in FUNCTIONS:
+            return FUNCTIONS[name](*(arb(value_of(argument, text)) for argument in arguments))
+    raise ValueError
 
 
-def fields(value, needed, optional=()):
+def by_half_tangent(t):
+    """Cosine and sine."""
+    return (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
+
+
+def angle(text, unit=UNITS["rad"]):
+    """Cosine and sine of an angle, exact for right angles and for those written by the tangent of their half."""
+    if text in RIGHT_ANGLES:
+        return tuple(map(fmpq, RIGHT_ANGLES[text]))
+    if match := HALF_TANGENT.match(str(text)):
+        cos, sin = by_half_tangent(expression(match.group(2))[0])
+        return cos, -sin if match.group(1) else sin
+    value, has_unit = expression(text)
+    radians = arb(value if has_unit else value * unit)
+    return radians.cos(), radians.sin()
+
+
+def about(centre, radius):
+    """The box of all numbers whose parts differ by at most `radius` from those of the centre."""
+    off = arb(0, radius)
+    return acb(centre.real + off, centre.imag + off)
+
+
+def is_exact(numbers):
+    return all(isinstance(x, (int, fmpq)) for x in numbers)
+
+
+def fields(table, needed, optional=()):
     """The values of a table that has these keys and no others."""
-    if not isinstance(value, dict) or not set(needed) <= set(value) <= set(needed) | set(optional):
-        found = sorted(map(str, value))[:9] if isinstance(value, dict) else str(value)[:40]
+    if not isinstance(table, dict) or not set(needed) <= set(table) <= set(needed) | set(optional):
+        found = sorted(map(str, table))[:9] if isinstance(table, dict) else str(table)[:40]
         raise Unreadable(f"found {found}, expected the keys {list(needed)}")
-    return [value.get(key) for key in (*needed, *optional)]
+    return [table.get(key) for key in (*needed, *optional)]
 
 
 def items(value, count=None):
-    if not isinstance(value, list) or len(value) > 1000 or count is not None and len(value) != count:
+    """A list of this length, or of any length up to 1000."""
+    if not isinstance(value, list) or len(value) > 1000 or count not in (None, len(value)):
         raise Unreadable(f"found {str(value)[:40]!r}, expected a list" + (f" of {count}" if count is not None else ""))
     return value
 
 
-def count(value):
-    """A whole number, which JSON writes without quotes."""
+def whole(value):
     if not isinstance(value, Whole) or len(value) > 6:
         raise Unreadable(f"found {str(value)[:40]!r}, expected a whole number")
     return int(value)
-
-
-class Whole(str):
-    """The digits of a whole number of JSON."""
-
-
-def about(centre, radius):
-    """The box of all numbers whose parts differ by at most `radius`, exactly or more, from those of the centre."""
-    off = arb(0, radius)
-    return acb(centre.real + off, centre.imag + off)
