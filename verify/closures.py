@@ -23,7 +23,7 @@ class Chain:
                 before = times(before, part)
         if not self.kinds:
             raise Unreadable("found no joint that moves")
-        self.links = [*self.links[1:], times(before, self.links[0])]
+        self.first, self.links = self.links[0], [*self.links[1:], times(before, self.links[0])]
         self.size = len(self.links)
 
     def constants(self):

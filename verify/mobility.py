@@ -25,8 +25,8 @@ def immobile(data, item, modes):
     parts = [part for pair in zip(system.kinds, system.links) for part in pair]
     for k in range(6 - system.size):  # more rotations, about axes that nothing distinguishes
         cos, sin = by_half_tangent(fmpq(3, 5 + 2 * k))
-        frame = times(times(along(fmpq(k + 1, 3), fmpq(1, k + 2), 0), about_x(*by_half_tangent(fmpq(2 + k, 7)))),
-                      [[cos, 0, sin, 0], IDENTITY[1], [-sin, 0, cos, 0], IDENTITY[3]])
+        frame = chain([inverse(system.first), along(fmpq(k + 1, 3), fmpq(1, k + 2), 0), about_x(*by_half_tangent(fmpq(2 + k, 7))),
+                       [[cos, 0, sin, 0], IDENTITY[1], [-sin, 0, cos, 0], IDENTITY[3]]])
         parts += [frame, TURN, inverse(frame)]
     longer = Chain(parts, [])
     most_solutions(longer, aid)

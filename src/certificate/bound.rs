@@ -6,6 +6,7 @@ use super::fault::{Fault, refused, unreadable};
 use super::incidence::{of_axes, of_points};
 use super::isolation::Closed;
 use super::mode::Ball;
+use super::real_zeros::proof_of_real;
 use super::record::{count, fields};
 use crate::kinematics::joint::Variable;
 use rug::Rational;
@@ -60,6 +61,13 @@ pub fn proof_of(closed: &Closed, balls: &[Ball]) -> Option<Value> {
     let meets = |choice: &Choice| solutions_by_eliminant(closure, choice, balls) == Ok(value);
     let choice = choices.find(meets)?;
     Some(json!({ "kind": "eliminant", "value": value, "aid": choice.json() }))
+}
+
+/// Returns a proof that there are no real solutions but so many; `None` if theorem 9 gives none.
+#[must_use]
+pub fn proof_of_real_list(closed: &Closed, value: usize) -> Option<Value> {
+    let Closed::Chain(closure) = closed else { return None };
+    proof_of_real(closure, value)
 }
 
 /// Returns all choices of an eliminant that are tried.

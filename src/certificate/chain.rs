@@ -11,7 +11,7 @@ use crate::algebra::enclosure::Enclosure;
 use crate::algebra::ring::Ring;
 use crate::catalogue::entry::{Case, InputValue};
 use crate::kinematics::chain::{Chain, JointKind};
-use crate::kinematics::closed_loop::{angle_motion, distance_motion};
+use crate::kinematics::closed_loop::{OpenLoop, angle_motion, distance_motion};
 use crate::kinematics::joint::{JointVariable, Variable};
 use crate::kinematics::motion::{Motion, dot};
 use rug::{Float, Rational, float::Constant};
@@ -82,6 +82,15 @@ impl ChainClosure {
         let spherical = unknown.enumerate().filter(|(_, v)| is_first(v)).map(|(k, _)| k).collect();
         let exact = if is_exact { Some(links::<Rational>(chain, case)?.1) } else { None };
         Ok(Self { variables, links: enclosed, exact, given, spherical })
+    }
+
+    /// Returns the loop in f64.
+    #[must_use]
+    pub fn rounded(&self) -> OpenLoop<f64> {
+        let near = |x: &Enclosure| Some(x.middle().to_f64());
+        let links = self.links.each_ref().map(|link| link.map(near).unwrap_or_else(Motion::identity));
+        let [first @ .., last] = links;
+        OpenLoop { variables: self.variables, constants: first, before_gap: last, after_gap: Motion::identity() }
     }
 
     fn links<S: Enclosing>(&self) -> [Motion<S>; 6] {

@@ -9,7 +9,8 @@ use super::isolation::{Closed, proved_modes};
 use super::mode::Ball;
 use super::moving::mobility;
 use super::platform::PlatformClosure;
-use super::record::{Claim, Record};
+use super::real_zeros;
+use super::record::{Claim, Record, count, fields};
 use crate::catalogue::Chains;
 use crate::catalogue::entry::{Case, Design, Entry};
 use serde_json::{Deserializer, Value};
@@ -28,6 +29,8 @@ pub enum Holds {
         /// The number of real solutions.
         real: usize,
     },
+    /// A complete list of real solutions; the complex ones are not counted.
+    Real(usize),
     /// No real solution exists; the complex ones are not counted.
     OutOfReach,
     /// A closed loop moves in this many dimensions; 0 means that it does not move.
@@ -40,6 +43,7 @@ impl fmt::Display for Holds {
             Self::Solutions { complex, real } => {
                 write!(f, "{complex} solutions, {real} of them real: complete, proved")
             }
+            Self::Real(real) => write!(f, "{real} real solutions: complete, proved"),
             Self::OutOfReach => write!(f, "no real solution: proved"),
             Self::Mobility(0) => write!(f, "immobile, of dimension 0: proved"),
             Self::Mobility(dimension) => write!(f, "mobile, of dimension {dimension}: proved"),
@@ -72,16 +76,21 @@ pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> 
         }
     }
     let closed = closed(&entry, case)?;
-    if let [item] = record.proof.as_slice()
-        && item.get("kind").and_then(Value::as_str) == Some(distance::KIND)
-    {
-        return out_of_reach(&closed, item, &record.claim, record.modes.len());
+    let kind = match record.proof.as_slice() {
+        [item] => item.get("kind").and_then(Value::as_str).unwrap_or_default(),
+        _ => "",
+    };
+    if kind == distance::KIND {
+        return out_of_reach(&closed, &record.proof[0], &record.claim, record.modes.len());
     }
     if let Some(at) = record.modes.iter().position(|mode| mode.multiplicity != 1) {
         return refused(format!("mode {}: a ball of an isolated simple solution counts once", at + 1));
     }
     let balls: Vec<Ball> = record.modes.into_iter().map(|mode| mode.ball).collect();
     proved_modes(&closed, &balls)?;
+    if kind == real_zeros::KIND {
+        return real_list(&closed, &record.proof[0], &record.claim, &balls);
+    }
     let bound = bound(&closed, &record.proof, &balls)?;
     let (complex, real) = (balls.len(), balls.iter().filter(|ball| ball.real).count());
     if bound != complex {
@@ -90,11 +99,39 @@ pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> 
     if record.claim.complex != Some(complex) || record.claim.real != Some(real) {
         return refused(format!("claim: other numbers than {complex} solutions, {real} of them real, are proved"));
     }
-    if record.claim.status != if real == 0 { "unreachable" } else { "complete" } {
-        let status = shortened(&record.claim.status);
-        return refused(format!("claim: the status is `{status}`, where {real} real solutions are proved"));
-    }
+    check_status(&record.claim, real)?;
     Ok(Holds::Solutions { complex, real })
+}
+
+fn check_status(claim: &Claim, real: usize) -> Result<(), Fault> {
+    if claim.status == if real == 0 { "unreachable" } else { "complete" } {
+        return Ok(());
+    }
+    let status = shortened(&claim.status);
+    refused(format!("claim: the status is `{status}`, where {real} real solutions are proved"))
+}
+
+/// Checks a certificate of the real solutions alone, of which the balls are proved: theorem 9.
+fn real_list(closed: &Closed, item: &Value, claim: &Claim, balls: &[Ball]) -> Result<Holds, Fault> {
+    let [_, value, aid] = fields(item, ["kind", "value", "aid"], &[])?;
+    let (stated, choice) = (count(value)?, real_zeros::Choice::read(aid)?);
+    let Closed::Chain(closure) = closed else {
+        return refused("proof: real-zeros: only loops have such an eliminant");
+    };
+    let bound = real_zeros::real_solutions(closure, choice)?;
+    if stated != bound {
+        return refused(format!("proof: real-zeros: the value is {stated}, where the bound is {bound}"));
+    }
+    let real = balls.iter().filter(|ball| ball.real).count();
+    if real != bound || balls.len() != real {
+        let modes = balls.len();
+        return refused(format!("proof: real-zeros: at most {bound} solutions, and {modes} modes are proved, {real} of them real"));
+    }
+    if claim.real != Some(real) || claim.complex.is_some() {
+        return refused(format!("claim: {real} real solutions are proved, and nothing of complex ones"));
+    }
+    check_status(claim, real)?;
+    Ok(Holds::Real(real))
 }
 
 /// Checks a certificate of an answer without real solutions that counts no complex ones.

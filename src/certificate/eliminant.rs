@@ -5,28 +5,19 @@ use super::all_roots::all_roots;
 use super::chain::ChainClosure;
 use super::fault::{Fault, refused};
 use super::isolation::Longer;
+use super::lines::{COLUMNS, Rows, Square, at, matrix};
 use super::mode::Ball;
 use super::record::{count, decimal, fields};
 use crate::algebra::determinant::modular;
 use crate::algebra::echelon::Echelon;
-use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::Ring;
-use crate::algebra::trigonometric::{Pair, reduce};
 use crate::algebra::univariate::Univariate;
 use crate::kinematics::joint::Variable;
-use crate::kinematics::motion::{Motion, cross, dot};
+use crate::kinematics::motion::Motion;
 use num_complex::Complex;
 use rug::Rational;
 use serde_json::{Value, json};
 
-type Symbols = Polynomial<Rational>;
-/// A polynomial of degree 2 in the hidden unknown.
-type Square = [Rational; 3];
-/// Rows for the columns `u^i v^j`, i up to 3 and j up to 2.
-type Rows = Vec<Vec<Square>>;
-
-/// Columns of the matrix.
-const COLUMNS: usize = 12;
 /// Degree of its minors: 2 for each row.
 const DEGREE: usize = 2 * COLUMNS;
 /// Maximum number of bits of a number of a link: those of a pose by four integers of 60 bits have some 250.
@@ -75,10 +66,7 @@ pub(super) fn solutions_by_eliminant(closure: &ChainClosure, choice: &Choice, ba
 
 /// Returns the number of solutions that the eliminant of a choice allows to a loop with these links behind its unknowns.
 /// The search for its roots begins at the starts.
-///
-/// # Errors
-/// [`Fault::Refused`] if it gives no bound.
-pub(super) fn solutions_of_loop(
+fn solutions_of_loop(
     links: &[Motion<Rational>; 6],
     variables: &[Variable; 6],
     choice: &Choice,
@@ -105,10 +93,9 @@ pub(super) fn solutions_of_loop(
         let (cos, sin) = ((Rational::from(1) - square) / &below, Rational::from(&choice.shift * 2) / below);
         links[choice.hidden] = Motion::rotation_z(cos, sin).then_after(&links[choice.hidden]);
     }
-    let Some(equations) = equations(&links, &turns) else {
+    let Some(rows) = matrix(&links, &turns, choice.hidden) else {
         return no("the other unknowns do not follow from three of them");
     };
-    let Some(rows) = matrix(&equations, &turns, choice.hidden) else { return no("an equation is of another form") };
     let minor = minor(&rows)?;
     if is_angle && minor.degree() != Some(DEGREE) {
         return no("an angle of pi is a root");
@@ -116,6 +103,7 @@ pub(super) fn solutions_of_loop(
     let circle = Univariate::new(vec![Rational::from(1), Rational::new(), Rational::from(1)]);
     let minor = if is_angle { minor.remove_factor(&circle).1 } else { minor };
     let Some(roots) = all_roots(&minor.square_free_part(), starts) else { return no("its roots are not told apart") };
+    let Some(rows) = enclosed(&rows) else { return no("the numbers are too long") };
     let mut most = 0;
     for root in &roots {
         match solutions_at(&rows, root) {
@@ -142,129 +130,17 @@ fn start((re, im): &(Rational, Rational), is_angle: bool, shift: &Rational) -> O
     start.is_finite().then_some(start)
 }
 
-/// Returns the motion of an unknown, or its inverse, with symbol 2k for cosine or distance and 2k + 1 for the sine.
-fn moved(k: usize, is_turn: bool, is_back: bool) -> Motion<Symbols> {
-    let (first, second) = (Symbols::variable(2 * k), Symbols::variable(2 * k + 1));
-    match (is_turn, is_back) {
-        (true, false) => Motion::rotation_z(first, second),
-        (true, true) => Motion::rotation_z(first, second.neg()),
-        (false, false) => Motion::translation_z(first),
-        (false, true) => Motion::translation_z(first.neg()),
-    }
-}
-
-/// Returns the coordinates of the image of the z axis and its origin: p, l, p.p, p.l, p x l, (p.p) l - 2 (p.l) p.
-fn fourteen(motion: &Motion<Symbols>, turns: &[bool]) -> Vec<Symbols> {
-    let (p, l) = (&motion.translation, &motion.rotation.each_ref().map(|row| row[2].clone()));
-    let (square, along) = (dot(p, p), dot(p, l));
-    let mirrored = (0..3).map(|i| square.mul(&l[i]).sub(&along.mul(&p[i]).scale(&Rational::from(2))));
-    let all = p.iter().chain(l).cloned().chain([square.clone(), along.clone()]).chain(cross(p, l)).chain(mirrored);
-    let pairs: Vec<Pair> =
-        (0..turns.len()).filter(|k| turns[*k]).map(|k| Pair { cos: 2 * k, sin: 2 * k + 1 }).collect();
-    all.map(|entry| reduce(&entry, &pairs)).collect()
-}
-
-/// Returns the combinations of the fourteen equations that are free of the last two unknowns; `None` if these do not
-/// follow from the others.
-fn equations(links: &[Motion<Rational>; 6], turns: &[bool; 6]) -> Option<Vec<Symbols>> {
-    let lift = |motion: &Motion<Rational>| motion.map(|x| Some(Symbols::constant(x.clone())));
-    let chain = |parts: &[Motion<Symbols>]| {
-        parts.iter().fold(Motion::identity(), |product, part| product.then_after(part))
+/// Returns the matrix in balls.
+fn enclosed(rows: &Rows<Rational>) -> Option<Rows<Longer>> {
+    let entry = |[a, b, c]: &Square<Rational>| {
+        Some([Longer::from_rational(a)?, Longer::from_rational(b)?, Longer::from_rational(c)?])
     };
-    let mut front = Vec::new();
-    for k in 0..3 {
-        front.extend([moved(k, turns[k], false), lift(&links[k])?]);
-    }
-    let back = |k: usize| lift(&links[k].inverse());
-    let behind = [back(5)?, moved(1, turns[5], true), back(4)?, moved(0, turns[4], true), back(3)?];
-    let (left, right) = (fourteen(&chain(&front), &turns[..3]), fourteen(&chain(&behind), &turns[4..]));
-    let mut terms: Vec<Vec<u32>> = Vec::new();
-    for (term, _) in right.iter().flat_map(Polynomial::terms) {
-        let term = trimmed(term);
-        if !term.is_empty() && !terms.contains(&term) {
-            terms.push(term);
-        }
-    }
-    // The cosine and sine, or the distance, of each of the two.
-    let own = [Some(0), turns[4].then_some(1), Some(2), turns[5].then_some(3)];
-    let is_own = |symbol: usize| terms.contains(&trimmed((0..=symbol).map(|k| u32::from(k == symbol)).collect()));
-    let coefficient = |equation: &Symbols, term: &[u32]| {
-        let found = equation.terms().find(|(own, _)| trimmed(own.clone()) == term);
-        found.map_or_else(Rational::new, |(_, c)| c.clone())
-    };
-    let table = terms.iter().map(|term| right.iter().map(|equation| coefficient(equation, term)).collect()).collect();
-    let table = Echelon::of(table, right.len());
-    if table.rank() != terms.len() || !own.into_iter().flatten().all(is_own) {
-        return None;
-    }
-    let combined = |weights: Vec<Rational>| {
-        let sum = |mut total: Symbols, ((weight, one), other): ((&Rational, &Symbols), &Symbols)| {
-            total = total.add(&one.scale(weight));
-            total.sub(&Symbols::constant(weight * coefficient(other, &[])))
-        };
-        weights.iter().zip(&left).zip(&right).fold(Symbols::zero(), sum)
-    };
-    Some(table.null_space().into_iter().map(combined).collect())
-}
-
-/// Removes zeros at the end of exponents.
-fn trimmed(mut exponents: Vec<u32>) -> Vec<u32> {
-    while exponents.last() == Some(&0) {
-        exponents.pop();
-    }
-    exponents
-}
-
-/// Returns a cosine, a sine or 1 times `1 + t^2`, or a power of a distance, as polynomial of degree 2.
-fn part(is_turn: bool, first: u32, second: u32) -> Option<[i32; 3]> {
-    match (is_turn, first, second) {
-        (true, 0, 0) => Some([1, 0, 1]),
-        (true, 1, 0) => Some([1, 0, -1]),
-        (true, 0, 1) => Some([0, 2, 0]),
-        (false, 0, 0) => Some([1, 0, 0]),
-        (false, 1, 0) => Some([0, 1, 0]),
-        (false, 2, 0) => Some([0, 0, 1]),
-        _ => None,
-    }
-}
-
-/// Returns the equations times `1 + t^2` of every rotation, once and times the first other unknown u.
-fn matrix(equations: &[Symbols], turns: &[bool; 6], hidden: usize) -> Option<Rows> {
-    let others: Vec<usize> = (0..3).filter(|k| *k != hidden).collect();
-    let mut rows = Rows::new();
-    for equation in equations {
-        let mut row = vec![Square::default(); COLUMNS];
-        for (exponents, value) in equation.terms() {
-            let at = |k: usize| exponents.get(k).copied().unwrap_or(0);
-            let part = |k: usize| part(turns[k], at(2 * k), at(2 * k + 1));
-            let (own, u, v) = (part(hidden)?, part(others[0])?, part(others[1])?);
-            for i in 0..3 {
-                for j in 0..3 {
-                    for (sum, h) in row[3 * i + j].iter_mut().zip(own) {
-                        *sum += Rational::from(value * (u[i] * v[j] * h));
-                    }
-                }
-            }
-        }
-        let mut shifted = row.clone();
-        shifted.rotate_right(3);
-        rows.extend([row, shifted]);
-    }
-    Some(rows)
-}
-
-fn at<R: Ring>(rows: &Rows, t: &R) -> Option<Vec<Vec<R>>> {
-    let value = |entry: &Square| {
-        let [a, b, c] = entry.each_ref().map(R::from_rational);
-        Some(c?.mul(t).add(&b?).mul(t).add(&a?))
-    };
-    rows.iter().map(|row| row.iter().map(value).collect()).collect()
+    rows.iter().map(|row| row.iter().map(entry).collect()).collect()
 }
 
 /// Returns a nonzero minor of twelve rows.
-fn minor(rows: &Rows) -> Result<Univariate<Rational>, Fault> {
-    let here = at(rows, &Rational::from(SOMEWHERE)).unwrap_or_default();
-    let here = Echelon::of(here, COLUMNS);
+fn minor(rows: &Rows<Rational>) -> Result<Univariate<Rational>, Fault> {
+    let here = Echelon::of(at(rows, &Rational::from(SOMEWHERE)), COLUMNS);
     if here.rank() < COLUMNS {
         return refused("proof: eliminant: it is 0");
     }
@@ -277,8 +153,8 @@ fn minor(rows: &Rows) -> Result<Univariate<Rational>, Fault> {
 
 /// Returns the number of solutions that a root allows: the corank, or none if the only kernel vector is no `u^i v^j`;
 /// `None` if the corank is above 2.
-fn solutions_at(rows: &Rows, root: &Longer) -> Option<usize> {
-    let mut entries = at(rows, root)?;
+fn solutions_at(rows: &Rows<Longer>, root: &Longer) -> Option<usize> {
+    let mut entries = at(rows, root);
     let (mut left, mut columns): (Vec<usize>, Vec<usize>) = ((0..rows.len()).collect(), (0..COLUMNS).collect());
     let mut steps = Vec::new();
     while !columns.is_empty() {

@@ -25,6 +25,9 @@ pub(super) trait Enclosing: Field {
     /// Returns a lower bound of the absolute value.
     fn at_least(&self) -> f64;
 
+    /// Returns whether the real part of the centre is positive.
+    fn is_right(&self) -> bool;
+
     /// Returns the ball of this radius about a rational point.
     fn about((re, im): &(Rational, Rational), radius: f64) -> Self {
         let float = |q: &Rational| Float::with_val(Self::BITS + GUARD, q);
@@ -66,6 +69,9 @@ impl<const BITS: u32> Enclosing for Ball<BITS> {
     }
     fn at_least(&self) -> f64 {
         self.lower().to_f64_round(Round::Down)
+    }
+    fn is_right(&self) -> bool {
+        *self.re() > 0
     }
 }
 

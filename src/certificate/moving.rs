@@ -1,15 +1,17 @@
 //! Decides whether a closed loop moves: theorems 5 to 7 of docs/certificate.md.
 
 use super::bound::choices;
+use super::chain::ChainClosure;
 use super::check::closed;
 use super::data::{data_of_loop, entry_of};
-use super::eliminant::{Choice, is_long, solutions_of_loop};
+use super::eliminant::{Choice, is_long, solutions_by_eliminant};
 use super::fault::{Fault, refused, shortened, unreadable};
-use super::isolation::proved_modes;
+use super::isolation::{Closed, proved_modes};
 use super::mode::{Ball, Unproved};
 use super::record::{Claim, decimal, fields, list, text};
-use super::refine::balls;
+use super::refine::{Near, balls};
 use crate::algebra::echelon::Echelon;
+use crate::algebra::enclosure::Enclosure;
 use crate::algebra::number::{Angle, HalfTangent};
 use crate::algebra::ring::Ring;
 use crate::algebra::series::Series;
@@ -32,8 +34,9 @@ const LONGEST_PLACE: f64 = 1e5;
 /// Denominator of the half-angle tangent of a held joint.
 const HELD_PARTS: f64 = 1e4;
 
-/// A loop with rational links: the kind of each unknown, and the link behind it.
-type Loop = (Vec<Variable>, Vec<Motion<Rational>>);
+/// A loop with rational links: the kind of each unknown, the link behind it, and the part of the last link that stands in front of the
+/// first unknown.
+type Loop = (Vec<Variable>, Vec<Motion<Rational>>, Motion<Rational>);
 
 /// Returns the dimension of the motion that a certificate proves.
 pub(super) fn mobility(
@@ -47,13 +50,22 @@ pub(super) fn mobility(
         return refused(format!("proof: found {} items, expected one", proof.len()));
     };
     let kind = item.get("kind").and_then(Value::as_str).unwrap_or_default();
-    if kind != "regular" && !modes.is_empty() {
+    if kind == "curve" && !modes.is_empty() {
         return refused("modes: none are asked for here");
     }
     let found = match kind {
         "eliminant" => {
             let [_, aid] = fields(item, ["kind", "aid"], &[])?;
-            finitely_many(&rational_loop(entry)?, &Choice::read(aid)?)?;
+            let longer = longer_loop(&rational_loop(entry)?)?;
+            finitely_many(&longer, &Choice::read(aid)?)?;
+            if modes.iter().any(|mode| mode.multiplicity != 1) {
+                return refused("modes: simple solutions of the longer loop are asked for");
+            }
+            let balls: Vec<Ball> = modes.into_iter().map(|mode| mode.ball).collect();
+            if balls.is_empty() {
+                return refused("modes: a solution of the longer loop is asked for");
+            }
+            proved_modes(&Closed::Chain(Box::new(longer)), &balls)?;
             0
         }
         "curve" => {
@@ -90,11 +102,11 @@ fn rational_loop(entry: &Entry) -> Result<Loop, Fault> {
     let before = motions.remove(0);
     let last = motions.len() - 1;
     motions[last] = motions[last].then_after(&before);
-    Ok((variables, motions))
+    Ok((variables, motions, before))
 }
 
-/// Checks theorem 5: with rotations added about other axes, up to six unknowns, the loop has finitely many solutions.
-fn finitely_many((variables, links): &Loop, choice: &Choice) -> Result<(), Fault> {
+/// Returns a loop with rotations about other axes added behind its last link, up to six unknowns.
+fn longer_loop((variables, links, before): &Loop) -> Result<ChainClosure, Fault> {
     let (mut variables, mut links) = (variables.clone(), links.clone());
     for k in 0..u32::try_from(6 - links.len()).unwrap_or(0) {
         let about = |t: Rational| {
@@ -109,16 +121,23 @@ fn finitely_many((variables, links): &Loop, choice: &Choice) -> Result<(), Fault
         let mut about_y = Motion::identity();
         about_y.rotation[0] = [cos.clone(), Rational::new(), sin.clone()];
         about_y.rotation[2] = [-sin, Rational::new(), cos];
-        let frame = frame.then_after(&about_y);
+        // What is in front of the first unknown stays behind the added rotations: their axes are given in the frame of the ground.
+        let frame = before.inverse().then_after(&frame).then_after(&about_y);
         let last = links.len() - 1;
         links[last] = links[last].then_after(&frame);
         links.push(frame.inverse());
         variables.push(Variable::Rotation);
     }
-    let (Ok(links), Ok(variables)) = (<&[_; 6]>::try_from(links.as_slice()), <[_; 6]>::try_from(variables)) else {
+    let (Ok(links), Ok(variables)) = (<[_; 6]>::try_from(links), <[_; 6]>::try_from(variables)) else {
         return refused("proof: eliminant: more than six unknowns");
     };
-    solutions_of_loop(links, &variables, choice, &[]).map(drop)
+    let known = |link: &Motion<Rational>| link.map(|x| Some(Enclosure::of(x))).unwrap_or_else(Motion::identity);
+    Ok(ChainClosure { variables, links: links.each_ref().map(known), exact: Some(links), given: None, spherical: Vec::new() })
+}
+
+/// Checks theorem 5: the longer loop has finitely many solutions.
+fn finitely_many(longer: &ChainClosure, choice: &Choice) -> Result<(), Fault> {
+    solutions_by_eliminant(longer, choice, &[]).map(drop)
 }
 
 /// The value of an unknown at a configuration: a half-angle tangent (none for pi), or a distance.
@@ -157,7 +176,7 @@ fn standing(variable: Variable, place: &Place) -> Motion<Rational> {
 }
 
 /// Checks theorem 6: the closure equations hold to order 16 along the only first-order motion.
-fn follows_a_curve((variables, links): &Loop, point: &[Place]) -> Result<(), Fault> {
+fn follows_a_curve((variables, links, _): &Loop, point: &[Place]) -> Result<(), Fault> {
     let size = variables.len();
     let misplaced = |(variable, place): (&Variable, &Place)| *variable == Variable::Translation && place.is_none();
     if point.len() != size || variables.iter().zip(point).any(misplaced) {
@@ -254,16 +273,10 @@ fn is_regular(data: &Map<String, Value>, held: &Value, modes: Vec<Unproved>) -> 
     proved_modes(&closed, &[mode.ball])
 }
 
-/// Returns a proof that a loop moves in one dimension, or not at all, from real configurations of it, with the balls that
-/// the proof needs; `None` if theorems 5 to 7 give none.
+/// Returns a proof that a loop moves in one dimension, from real configurations of it, with the balls that the proof needs; `None` if
+/// theorems 6 and 7 give none.
 #[must_use]
-pub fn proof_of_motion(entry: &Entry, is_mobile: bool, configurations: &[Vec<f64>]) -> Option<(Value, Vec<Ball>)> {
-    if !is_mobile {
-        let links = rational_loop(entry).ok()?;
-        let mut choices = choices();
-        let proves = |choice: &Choice| finitely_many(&links, choice).is_ok();
-        return choices.find(proves).map(|choice| (json!({ "kind": "eliminant", "aid": choice.json() }), Vec::new()));
-    }
+pub fn proof_of_motion(entry: &Entry, configurations: &[Vec<f64>]) -> Option<(Value, Vec<Ball>)> {
     let through = |q: &Vec<f64>| {
         let links = rational_loop(entry).ok()?;
         let point: Vec<Place> = links.0.iter().zip(q).map(|(v, x)| near_place(*v, *x)).collect::<Option<_>>()?;
@@ -272,6 +285,20 @@ pub fn proof_of_motion(entry: &Entry, is_mobile: bool, configurations: &[Vec<f64
         Some((json!({ "kind": "curve", "point": point.iter().map(text).collect::<Vec<_>>() }), Vec::new()))
     };
     configurations.iter().find_map(through).or_else(|| configurations.iter().find_map(|q| held_regular(entry, q)))
+}
+
+/// Returns a proof that a loop does not move, with a ball around a solution of the longer loop; `None` if theorem 5 gives none.
+/// `solve` finds solutions of that loop.
+#[must_use]
+pub fn proof_of_rest(entry: &Entry, solve: &dyn Fn(&ChainClosure) -> Vec<Near>) -> Option<(Value, Vec<Ball>)> {
+    // The frames of axes are those of the data as a certificate has them.
+    let Ok(Value::Object(data)) = data_of_loop(entry) else { return None };
+    let longer = longer_loop(&rational_loop(&entry_of(&data, Chains::Any).ok()?).ok()?).ok()?;
+    let choice = choices().find(|choice| finitely_many(&longer, choice).is_ok())?;
+    let near = solve(&longer);
+    let longer = Closed::Chain(Box::new(longer));
+    let ball = near.into_iter().find_map(|one| balls(&longer, &[one]))?;
+    Some((json!({ "kind": "eliminant", "aid": choice.json() }), ball))
 }
 
 /// Returns the simple value that an unknown equals to rounding; `None` if there is none.

@@ -114,6 +114,9 @@ impl Enclosing for Nearby {
         let least = self.re.abs().max(self.im.abs()) * (2.0 - UP) - self.radius * UP;
         if least > 0.0 { least } else { 0.0 }
     }
+    fn is_right(&self) -> bool {
+        self.re > 0.0
+    }
 }
 
 #[cfg(test)]

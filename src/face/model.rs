@@ -143,8 +143,12 @@ impl Model {
     /// # Errors
     /// As [`Mechanism::solve`], and [`Error::Unsupported`] with the reason for an answer of which there is no certificate.
     pub fn certificate(&self, case: &Case) -> Result<Value> {
-        let solution = self.solve(case, true)?;
-        let found = crate::report::certificate::certificate(&self.entry, 1, case, &solution);
+        let of = |complex| Ok::<_, Error>(crate::report::certificate::certificate(&self.entry, 1, case, &self.solve(case, complex)?));
+        let found = match of(true)? {
+            // Real solutions may be proved to be all where complex ones are not.
+            Err(reason) => of(false)?.map_err(|_| reason),
+            found => found,
+        };
         found.map_err(|reason| Error::Unsupported(format!("there is no certificate: {reason}")))
     }
 
@@ -189,6 +193,9 @@ pub fn verify(certificates: &str, file: Option<&str>) -> Result<Value> {
         found.push(match outcome {
             Ok(Holds::Solutions { complex, real }) => {
                 json!({ "holds": true, "complex": complex, "real": real, "mobility": null, "fault": null })
+            }
+            Ok(Holds::Real(real)) => {
+                json!({ "holds": true, "complex": null, "real": real, "mobility": null, "fault": null })
             }
             Ok(Holds::OutOfReach) => {
                 json!({ "holds": true, "complex": null, "real": 0, "mobility": null, "fault": null })

@@ -1,7 +1,12 @@
 //! The certificate of an answer: docs/certificate.md.
 
 use crate::catalogue::entry::{Case, Entry};
-use crate::certificate::{Ball, Closed, FORMAT, Fault, VERSION, balls, check, closed, data_of, data_of_loop, proof_by_distance, proof_of, proof_of_motion};
+use crate::assembly::{Assembly, Roots, Solver, Workspace};
+use crate::certificate::{
+    Ball, ChainClosure, Closed, FORMAT, Fault, Near, VERSION, balls, check, closed, data_of, data_of_loop, proof_by_distance, proof_of,
+    proof_of_motion, proof_of_real_list, proof_of_rest,
+};
+use crate::kinematics::motion::Motion;
 use crate::mechanism::{FullMode, Solution};
 use crate::mobility::Mobility;
 use crate::verdict::Status;
@@ -30,7 +35,7 @@ pub fn certificate(entry: &Entry, number: usize, case: &Case, solution: &Solutio
     let closed = closed(entry, case).map_err(|fault| words(&fault))?;
     let info =
         json!({ "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": entry.name, "title": entry.title, "case": number });
-    let (claim, balls, proof) = counted(&closed, solution).or_else(|reason| {
+    let (claim, balls, proof) = counted(&closed, solution).or_else(|reason| real_list(&closed, solution).ok_or(reason)).or_else(|reason| {
         let distance = if verdict.status == Status::Unreachable { proof_by_distance(&closed) } else { None };
         let claim = json!({ "verb": "solve", "status": "unreachable", "proof": "proved", "real": 0 });
         distance.map(|proof| (claim, Vec::new(), proof)).ok_or(reason)
@@ -63,6 +68,30 @@ fn counted(closed: &Closed, solution: &Solution) -> Result<(Value, Vec<Ball>, Va
     Ok((claim, balls, proof))
 }
 
+/// Returns the claim of an answer about real solutions alone, a ball around each, and the item that bounds their number; `None` if
+/// there is none.
+fn real_list(closed: &Closed, solution: &Solution) -> Option<(Value, Vec<Ball>, Value)> {
+    let near: Vec<(Vec<Complex<f64>>, bool)> = solution
+        .modes
+        .iter()
+        .filter(|mode| mode.real && !mode.near)
+        .map(|mode| (unknowns(closed, mode), true))
+        .collect();
+    let balls = balls(closed, &near)?;
+    let proof = proof_of_real_list(closed, balls.len())?;
+    let status = if balls.is_empty() { "unreachable" } else { "complete" };
+    Some((json!({ "verb": "solve", "status": status, "proof": "proved", "real": balls.len() }), balls, proof))
+}
+
+/// Returns solutions of a loop that are not proved.
+fn found(closure: &ChainClosure) -> Vec<Near> {
+    let mut assembly = Assembly::default();
+    let solver = Solver::prepare(&closure.rounded());
+    solver.solve(&Motion::identity(), Roots::All, &mut Workspace::default(), &mut assembly);
+    let simple = assembly.modes.iter().filter(|mode| mode.multiplicity == 1);
+    simple.map(|mode| (mode.unknowns.to_vec(), mode.real)).collect()
+}
+
 /// Returns the certificate of the decision whether a loop moves, which the checker of [`crate::certificate`] accepts.
 ///
 /// # Errors
@@ -75,7 +104,8 @@ pub fn certificate_of_motion(entry: &Entry, answer: &Mobility) -> Result<Value, 
     };
     let data = data_of_loop(entry)?;
     let configurations: Vec<Vec<f64>> = answer.configurations.iter().map(|own| own.q.clone()).collect();
-    let (proof, balls) = proof_of_motion(entry, dimension > 0, &configurations)
+    let found = if dimension > 0 { proof_of_motion(entry, &configurations) } else { proof_of_rest(entry, &found) };
+    let (proof, balls) = found
         .ok_or_else(|| format!("no theorem of docs/certificate.md applies: the code is {}", answer.code.word()))?;
     let info = json!({ "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": entry.name, "title": entry.title });
     let claim = json!({

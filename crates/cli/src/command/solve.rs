@@ -206,7 +206,7 @@ impl<'a> Work<'a> {
         let pool = pool(if total == Some(1) { Some(1) } else { self.options.threads })?;
         let memory = || {
             let mut workspace = Workspace::default();
-            workspace.only_real_list = !self.options.complex && self.options.certificate.is_none();
+            workspace.only_real_list = !self.options.complex;
             (workspace, Assembly::default())
         };
         let one = |memory: &mut (Workspace, Assembly), job: &Job| {

@@ -1,0 +1,168 @@
+//! An upper bound on the number of real solutions of a loop by the real zeros of an eliminant: theorem 9 of docs/certificate.md.
+
+use super::chain::ChainClosure;
+use super::enclosing::Enclosing;
+use super::fault::{Fault, refused};
+use super::isolation::Longer;
+use super::lines::{COLUMNS, Rows, at, matrix};
+use super::nearby::Nearby;
+use super::record::{count, fields};
+use crate::algebra::determinant::determinant;
+use crate::algebra::echelon::Echelon;
+use crate::algebra::ring::Ring;
+use crate::algebra::univariate::Univariate;
+use crate::kinematics::joint::Variable;
+use crate::kinematics::motion::Motion;
+use rug::{Float, Rational, float::Round};
+use serde_json::{Value, json};
+
+/// The kind of the item.
+pub(super) const KIND: &str = "real-zeros";
+/// Degree of the minor: 2 for each row.
+const DEGREE: usize = 2 * COLUMNS;
+/// The half-angle tangent is searched up to this number, and its inverse up to the inverse: no angle of a data sheet is there.
+const END: (i32, i32) = (97, 89);
+/// The interval from -1 to 1 is divided here: special data have zeros in the middle.
+const ASIDE: (i32, i32) = (1, 32);
+/// Divisions that are tried in f64 at once.
+const SHALLOW: usize = 5;
+/// Depth of the divisions: zeros nearer than 2^-100 are not told apart.
+const DEEPEST: usize = 100;
+/// The places at which the minor is computed are `(11 k + 1)/8` for k from -12 to 12: binary fractions, none of them special.
+const PLACES: std::ops::RangeInclusive<i32> = -12..=12;
+
+/// The choice of the hidden unknown.
+#[derive(Clone, Copy)]
+pub(super) struct Choice {
+    first: usize,
+    hidden: usize,
+}
+
+impl Choice {
+    pub(super) fn read(aid: &Value) -> Result<Self, Fault> {
+        let [first, hidden] = fields(aid, ["first", "hidden"], &[])?;
+        Ok(Self { first: count(first)?, hidden: count(hidden)? })
+    }
+}
+
+/// Returns the item that bounds the number of real solutions by this one; `None` if no choice of the hidden unknown does.
+pub(super) fn proof_of_real(closure: &ChainClosure, value: usize) -> Option<Value> {
+    let mut choices = (0..18).map(|k| Choice { first: k % 6, hidden: k / 6 });
+    let choice = choices.find(|choice| real_solutions(closure, *choice) == Ok(value))?;
+    Some(json!({ "kind": KIND, "value": value, "aid": { "first": choice.first, "hidden": choice.hidden } }))
+}
+
+/// Returns the number of real zeros of the eliminant of a choice, which are proved to be simple.
+///
+/// # Errors
+/// [`Fault::Refused`] if they are not, or if there is no such eliminant.
+pub(super) fn real_solutions(closure: &ChainClosure, choice: Choice) -> Result<usize, Fault> {
+    let no = |why: &str| refused(format!("proof: {KIND}: {why}"));
+    if choice.first > 5 || choice.hidden > 2 || !closure.spherical.is_empty() {
+        return no("no such unknown");
+    }
+    let around = |k: usize| (choice.first + k) % 6;
+    let turns: [bool; 6] = std::array::from_fn(|k| closure.variables[around(k)] == Variable::Rotation);
+    if !turns[3] || !turns[choice.hidden] {
+        return no("the hidden unknown or the fourth one is no rotation");
+    }
+    let links: [Motion<Longer>; 6] = std::array::from_fn(|k| {
+        let link = &closure.links[around(k)];
+        Motion {
+            rotation: link.rotation.each_ref().map(|row| row.each_ref().map(Longer::from)),
+            translation: link.translation.each_ref().map(Longer::from),
+        }
+    });
+    let Some(rows) = matrix(&links, &turns, choice.hidden) else {
+        return no("the other unknowns do not follow from three of them");
+    };
+    let Some(minor) = minor(&rows) else { return no("the eliminant is 0, or not known well enough") };
+    let backwards: Vec<Longer> = minor.iter().rev().cloned().collect();
+    let end = Rational::from(END);
+    let inverse = Rational::from(end.recip_ref());
+    let within = |f: &[Longer], end: &Rational| zeros(&shifted(f, &Rational::new(), end)?, 0);
+    match [within(&minor, &end), within(&backwards, &inverse)] {
+        [Some(inside), Some(outside)] => Ok(inside + outside),
+        _ => no("two zeros may be one, or one is at the end of an interval"),
+    }
+}
+
+/// Returns the coefficients of a minor that is not 0 as a polynomial of degree 24, the highest ones 0 if it has a lower degree.
+fn minor(rows: &Rows<Longer>) -> Option<Vec<Longer>> {
+    let place = |k: i32| Longer::from_rational(&Rational::from((11 * k + 1, 8)));
+    let chosen = Echelon::of(at(rows, &place(3)?), COLUMNS);
+    if chosen.rank() < COLUMNS {
+        return None;
+    }
+    let chosen: Rows<Longer> = chosen.independent_rows().iter().map(|row| rows[*row].clone()).collect();
+    let value = |k: i32| {
+        let t = place(k)?;
+        // A determinant without a sure pivot is 0 as a number, and no bound.
+        let value = determinant(&at(&chosen, &t));
+        (!value.is_zero()).then_some((t, value))
+    };
+    let points: Vec<(Longer, Longer)> = PLACES.map(value).collect::<Option<_>>()?;
+    let mut coefficients = Univariate::interpolate(&points).coefficients().to_vec();
+    coefficients.resize(DEGREE + 1, Longer::zero());
+    Some(coefficients)
+}
+
+/// Returns the number of zeros from -1 to 1 of a real polynomial that is not 0 at these ends; `None` if they are not proved to be simple.
+fn zeros(f: &[Longer], depth: usize) -> Option<usize> {
+    rounded(f).and_then(|near| few_zeros(&near, SHALLOW)).or_else(|| few_zeros(f, 0)).or_else(|| {
+        let parts = if depth < DEEPEST { divided(f) } else { None };
+        let [below, above] = parts?;
+        Some(zeros(&below, depth + 1)? + zeros(&above, depth + 1)?)
+    })
+}
+
+/// Returns the coefficients in f64, as parts of the largest one.
+fn rounded(f: &[Longer]) -> Option<Vec<Nearby>> {
+    let size = f.iter().filter_map(|c| c.upper().get_exp()).max()?;
+    let part = |x: &Float| x.clone() >> size;
+    let near = |c: &Longer| Nearby::near(&part(c.re()), &part(c.im()), part(c.radius()).to_f64_round(Round::Up));
+    Some(f.iter().map(near).collect())
+}
+
+/// As [`zeros`], with at most so many divisions of the interval one after the other.
+fn few_zeros<S: Enclosing>(f: &[S], divisions: usize) -> Option<usize> {
+    // The upper neighbours of sums and products of upper bounds are upper bounds.
+    let beyond = |terms: &[S], factor: &dyn Fn(usize) -> f64| {
+        terms.iter().enumerate().fold(0.0, |sum: f64, (k, x)| (sum + (x.at_most() * factor(k)).next_up()).next_up())
+    };
+    if f[0].at_least() > beyond(&f[1..], &|_| 1.0) {
+        return Some(0);
+    }
+    // The derivative is not 0 in the interval.
+    if f[1].at_least() > beyond(&f[2..], &|k| k as f64 + 2.0) {
+        let sign = |end: i32| {
+            let value = f.iter().rev().fold(S::zero(), |value, c| if end < 0 { c.sub(&value) } else { c.add(&value) });
+            (value.at_least() > 0.0).then(|| value.is_right())
+        };
+        return Some(usize::from(sign(-1)? != sign(1)?));
+    }
+    let [below, above] = if divisions > 0 { divided(f)? } else { return None };
+    Some(few_zeros(&below, divisions - 1)? + few_zeros(&above, divisions - 1)?)
+}
+
+/// Divides the interval from -1 to 1 in two, and returns the polynomial of each as one from -1 to 1.
+fn divided<S: Enclosing>(f: &[S]) -> Option<[Vec<S>; 2]> {
+    let place = Rational::from(ASIDE);
+    let (below, above) = (Rational::from(&place + 1) / 2_u32, Rational::from(1 - &place) / 2_u32);
+    Some([shifted(f, &Rational::from(&below - 1), &below)?, shifted(f, &Rational::from(1 - &above), &above)?])
+}
+
+/// Returns the coefficients of `f(middle + half x)`: Horner's rule, again for each coefficient.
+fn shifted<S: Enclosing>(f: &[S], middle: &Rational, half: &Rational) -> Option<Vec<S>> {
+    let (middle, half) = (S::from_rational(middle)?, S::from_rational(half)?);
+    let mut result = f.to_vec();
+    let mut power = S::one();
+    for first in 0..f.len() {
+        for k in (first..f.len() - 1).rev() {
+            result[k] = result[k].add(&middle.mul(&result[k + 1]));
+        }
+        result[first] = result[first].mul(&power);
+        power = power.mul(&half);
+    }
+    Some(result)
+}
