@@ -3,6 +3,7 @@ from flint import arb
 
 from closures import SLIDE, TURN
 from motions import column, cross, dot, inverse
+from points import of_points
 from quantities import is_exact
 
 THREE_JOINTS = {0: 4, 1: 4, 2: 2, 3: 1}  # the ways in which they bring a point to its place, by their number of translations
@@ -21,8 +22,7 @@ def general(system):
 def geometry(system):
     """Theorem 3."""
     if system.kinds == "platform":
-        groups = [points for points in (system.base, system.plate) if all(map(is_exact, points))]
-        return 16 if len(groups) == 2 and any(three_meet(points) or in_pairs(points) for points in groups) else None
+        return of_points(system.base, system.plate) if all(map(is_exact, system.base + system.plate)) else None
     return min(filter(None, (of_triple(system, first) for first in range(6))), default=None)
 
 
@@ -46,17 +46,6 @@ def crossing(m):
     (x, y, z), (u, v, w) = column(m, 3), column(m, 2)
     square = u * u + v * v
     return (z * square - (x * u + y * v) * w, square) if x * v - y * u == 0 and square != 0 else None
-
-
-def three_meet(points):
-    return any(points.count(point) >= 3 for point in points)
-
-
-def in_pairs(points):
-    corners = [point for k, point in enumerate(points) if point not in points[:k]]
-    if len(corners) != 3 or any(points.count(point) != 2 for point in corners):
-        return False
-    return any(x != 0 for x in cross(*([x - y for x, y in zip(corner, corners[0])] for corner in corners[1:])))
 
 
 def distance(system):

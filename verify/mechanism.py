@@ -9,7 +9,7 @@ from math import gcd
 from flint import arb, fmpq
 
 from closures import SLIDE, TURN, Chain, Platform
-from motions import IDENTITY, QUARTER, about_x, about_z, along, dot, inverse, of_quaternion, placement, times
+from motions import IDENTITY, QUARTER, about_x, about_z, along, dot, inverse, of_quaternion, placement, times, turned
 from quantities import UNITS, Refused, Unreadable, angle, by_half_tangent, expression, fields, is_exact, items, whole
 
 LARGEST = 64 << 20  # bytes of a mechanism file
@@ -37,6 +37,8 @@ class Reader:
             self.check(self.document, "mechanism")
             self.check(mechanism, "kind", "base", "plate", "legs_squared")
             points = [[[self.size(x) for x in items(p, 3)] for p in items(mechanism[key], 6)] for key in ("base", "plate")]
+            if "pose" in self.document:
+                return [Platform(*points, legs_of(self.pose(pose), *points)) for pose in self.document["pose"]]
             return [Platform(*points, self.squares(legs)) for legs in self.document.get("legs", [mechanism])]
         if kind not in ("arm", "loop"):
             raise Unreadable(f"found the kind {str(kind)[:40]!r}, expected one of arm, loop, platform")
@@ -150,6 +152,12 @@ class Reader:
         half = [u[0], u[1], u[2] + length] if u[0] != 0 or u[1] != 0 or u[2] > 0 else [fmpq(1), fmpq(0), fmpq(0)]
         rows = [[2 * half[i] * half[j] / dot(half, half) - int(i == j) for j in range(3)] for i in range(3)]
         return [[*row, x - along_axis * y] for row, x, y in zip(rows, p, u)] + [IDENTITY[3]]
+
+
+def legs_of(pose, base, plate):
+    """The squared lengths of the legs at a pose."""
+    ends = [[x + row[3] for x, row in zip(turned(pose, b), pose)] for b in plate]
+    return [dot(gap, gap) for gap in ([x - y for x, y in zip(end, a)] for end, a in zip(ends, base))]
 
 
 def is_same(one, other):

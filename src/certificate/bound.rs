@@ -3,9 +3,10 @@
 use super::chain::ChainClosure;
 use super::eliminant::{Choice, solutions_by_eliminant};
 use super::fault::{Fault, refused, unreadable};
-use super::incidence::{of_axes, of_points};
+use super::incidence::of_axes;
 use super::isolation::Closed;
 use super::mode::Ball;
+use super::points::of_points;
 use super::real_zeros::proof_of_real;
 use super::record::{count, fields};
 use crate::kinematics::joint::Variable;

@@ -1,11 +1,9 @@
-//! Bounds by exact incidences of axes and points: theorem 3 of docs/certificate.md.
+//! Bounds by exact incidences of axes: theorem 3 (a) and (b) of docs/certificate.md.
 
 use super::chain::ChainClosure;
-use super::platform::PlatformClosure;
 use crate::algebra::ring::Ring;
 use crate::kinematics::joint::Variable;
-use crate::kinematics::motion::{Motion, cross};
-use rug::Rational;
+use crate::kinematics::motion::Motion;
 
 /// Returns the least bound of all triples of neighbouring axes of a loop; `None` if there is none.
 pub(super) fn of_axes(closure: &ChainClosure) -> Option<usize> {
@@ -50,44 +48,4 @@ fn crossing<R: Ring>(link: &Motion<R>) -> Option<[R; 2]> {
     let along = x.mul(u).add(&y.mul(v));
     let is_crossed = x.mul(v).sub(&y.mul(u)).is_zero() && !square.is_zero();
     is_crossed.then(|| [z.mul(&square).sub(&along.mul(w)), square])
-}
-
-/// Returns 16 if three legs meet in a point, or if all legs meet in pairs in the corners of a triangle.
-pub(super) fn of_points(closure: &PlatformClosure) -> Option<usize> {
-    let points = closure.exact.as_ref()?;
-    (points.iter().any(three_meet) || points.iter().any(in_pairs)).then_some(16)
-}
-
-type Points = [[Rational; 3]; 6];
-
-fn three_meet(points: &Points) -> bool {
-    (0..6).any(|i| points.iter().filter(|point| **point == points[i]).count() >= 3)
-}
-
-fn in_pairs(points: &Points) -> bool {
-    let mut corners: Vec<&[Rational; 3]> = Vec::new();
-    for point in points {
-        if points.iter().filter(|other| *other == point).count() != 2 {
-            return false;
-        }
-        if !corners.contains(&point) {
-            corners.push(point);
-        }
-    }
-    let [a, b, c] = corners.as_slice() else { return false };
-    let side = |p: &[Rational; 3]| -> [Rational; 3] { std::array::from_fn(|k| Rational::from(&p[k] - &a[k])) };
-    cross(&side(b), &side(c)).iter().any(|x| *x != 0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn points_meet_in_pairs_or_in_threes() {
-        let points = |list: [[i32; 3]; 6]| list.map(|p| p.map(Rational::from));
-        let (a, b, c, d) = ([0, 0, 0], [1, 0, 0], [0, 1, 0], [2, 0, 0]);
-        assert!(in_pairs(&points([a, b, c, a, b, c])) && !in_pairs(&points([a, b, d, a, b, d])));
-        assert!(three_meet(&points([a, b, c, a, d, a])) && !three_meet(&points([a, b, c, a, d, b])));
-    }
 }

@@ -19,6 +19,7 @@ mod mode;
 mod moving;
 mod nearby;
 mod platform;
+mod points;
 mod real_zeros;
 mod record;
 mod refine;

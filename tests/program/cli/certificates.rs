@@ -111,3 +111,71 @@ fn distances_prove_that_nothing_is_in_reach() {
         "distance",
     );
 }
+
+/// An arm with a wrist whose links are off by up to 1e-6: eight solutions are of use, others are far from all real numbers.
+const AS_BUILT: &str = r#"
+[mechanism]
+kind = "arm"
+convention = "dh"
+joints = [
+    { type = "R", a = -0.0000005241, alpha = -1.5707962383, d = -0.0000002601 },
+    { type = "R", a = 0.4300002078, alpha = 0.0000002514, d = 0.1499991311 },
+    { type = "R", a = 0.0199990263, alpha = -1.5707956519, d = -0.0000004813 },
+    { type = "R", a = -0.0000005313, alpha = 1.5707973181, d = 0.4299999405 },
+    { type = "R", a = 0.0000006729, alpha = -1.5707963741, d = 0.0000002781 },
+    { type = "R", a = -0.0000006988, alpha = 0.0000002697, d = 0.1000007361 },
+]
+
+[[pose]]
+matrix = [[-0.776832129004, -0.125333327847, -0.617108904714, -0.308696230834], [0.354482413651, 0.722928945972, -0.593056453879, 0.057579093148], [0.520455629001, -0.679459561715, -0.517165971653, -0.152592450013], [0.0, 0.0, 0.0, 1.0]]
+"#;
+
+#[test]
+fn real_zeros_prove_that_no_real_solution_is_missing() {
+    let arm = file("certificates/as_built.toml", AS_BUILT);
+    let path = file("certificates/as_built", "");
+    let solved = run(&["solve", &arm, "-q", "--certificate", &path]);
+    assert!(solved.code == 0 && solved.err.is_empty(), "{}", solved.err);
+    assert_eq!(kind(&path), "real-zeros");
+    let checked = run(&["verify", &path, "--file", &arm]);
+    assert!(checked.code == 0 && checked.out.contains("holds: 8 real solutions"), "{}", checked.out);
+    let true_one = json(&fs::read_to_string(&path).unwrap());
+    let forged = |change: &dyn Fn(&mut serde_json::Value), says: &str| {
+        let mut forged = true_one.clone();
+        change(&mut forged);
+        let checked = run(&["verify", &file("certificates/forged", forged.to_string())]);
+        assert!(checked.code == 2 && checked.out.contains(says), "{says}: {}", checked.out);
+    };
+    let with = |modes: usize| {
+        move |own: &mut serde_json::Value| {
+            own["modes"].as_array_mut().unwrap().truncate(modes);
+            own["claim"]["real"] = json!(modes);
+            own["proof"][0]["value"] = json!(modes);
+        }
+    };
+    forged(&with(7), "the bound is 8");
+    forged(&with(0), "the bound is 8");
+    forged(&|own| own["modes"][7] = own["modes"][0].clone(), "the same solution");
+    forged(&|own| own["modes"][0]["radius"] = json!("1e-40"), "mode 1");
+    forged(&|own| own["claim"]["complex"] = json!(16), "claim");
+    forged(&|own| own["claim"]["status"] = json!("unreachable"), "claim");
+    forged(&|own| own["proof"][0]["aid"]["hidden"] = json!(3), "real-zeros");
+    forged(&|own| own["proof"] = json!([{ "kind": "general-bound", "value": 16 }]), "proof");
+    forged(&|own| own["data"]["mechanism"]["joints"][0]["d"] = json!("0.0900010001"), "mode 1");
+}
+
+#[test]
+fn a_loop_that_does_not_move_names_a_solution_of_the_longer_loop() {
+    let path = certified("mobility", "overconstrained/bennett_broken");
+    let true_one = json(&fs::read_to_string(&path).unwrap());
+    for (pointer, value, says) in [
+        ("/modes", json!([]), "modes"),
+        ("/modes/0/centre/0", json!("0.5"), "mode 1"),
+        ("/data/mechanism/joints/1/d", json!("0.001"), "mode 1"),
+    ] {
+        let mut forged = true_one.clone();
+        *forged.pointer_mut(pointer).unwrap() = value;
+        let checked = run(&["verify", &file("certificates/forged", forged.to_string())]);
+        assert!(checked.code == 2 && checked.out.contains(says), "{pointer}: {}", checked.out);
+    }
+}
