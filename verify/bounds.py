@@ -49,13 +49,15 @@ def crossing(m):
 
 
 def distance(system):
-    """Theorem 8: whether one side of a closed polygon would be longer than the others together."""
+    """Theorem 8: no real solution, where one side of a closed polygon would be longer than the others together."""
     if system.kinds != "platform":
-        return all(kind == TURN for kind in system.kinds) and exceeds([length(column(link, 3)) for link in system.links])
-    if any(square < 0 for square in system.squares):
-        return True
-    legs, between = [arb(x).sqrt() for x in system.squares], lambda points, i, j: length([x - y for x, y in zip(points[i], points[j])])
-    return any(exceeds([legs[i], legs[j], between(system.base, i, j), between(system.plate, i, j)]) for i in range(6) for j in range(i))
+        is_open = all(kind == TURN for kind in system.kinds) and exceeds([length(column(link, 3)) for link in system.links])
+    else:
+        between = lambda points, i, j: length([x - y for x, y in zip(points[i], points[j])])
+        legs, pairs = [arb(x).sqrt() for x in system.squares], [(i, j) for i in range(6) for j in range(i)]
+        is_open = any(square < 0 for square in system.squares) or any(exceeds(
+            [legs[i], legs[j], between(system.base, i, j), between(system.plate, i, j)]) for i, j in pairs)
+    return 0 if is_open else None
 
 
 def length(vector):

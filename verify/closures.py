@@ -2,7 +2,7 @@
 from flint import acb, acb_mat, arb
 
 from motions import IDENTITY, about_z, along, chain, column, dot, of_quaternion, times, turned
-from quantities import Refused, Unreadable, about, decimal, fields, items, whole
+from quantities import Refused, Unreadable, decimal, fields, items, whole
 
 TURN, SLIDE = "turn", "slide"
 MOST_RADIUS = arb(1) / 1000
@@ -116,7 +116,8 @@ class Platform:
 
 def prove(system, point, radius):
     """Whether the ball holds exactly one zero of the closure equations, and this is a solution."""
-    box, size = [about(x, radius) for x in point], system.size
+    off, size = arb(0, radius), system.size
+    box = [acb(x.real + off, x.imag + off) for x in point]
     value, slope = acb_mat(size, 1, system.values(point)), system.jacobian(box)
     try:
         inverse = acb_mat(size, size, [x.mid() for x in acb_mat(size, size, [x.mid() for x in slope.entries()]).inv().entries()])

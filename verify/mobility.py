@@ -84,6 +84,3 @@ def regular(data, item, modes):
     if proved_modes(system, items(modes, 1))[1] != 1:
         raise Refused("mode 1: a real configuration is asked for")
     return 1
-
-
-KINDS = {"eliminant": immobile, "curve": curve, "regular": regular}

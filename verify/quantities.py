@@ -3,7 +3,7 @@ import ast
 import operator
 import re
 
-from flint import acb, arb, ctx, fmpq
+from flint import arb, ctx, fmpq
 
 ctx.prec = 384  # bits: more than the 250 of a pose by a quaternion of four integers of 60 bits
 LONGEST = 2000  # characters of a number
@@ -94,12 +94,6 @@ def angle(text, unit=UNITS["rad"]):
     value, has_unit = expression(text)
     radians = arb(value if has_unit else value * unit)
     return radians.cos(), radians.sin()
-
-
-def about(centre, radius):
-    """The box of all numbers whose parts differ by at most `radius` from those of the centre."""
-    off = arb(0, radius)
-    return acb(centre.real + off, centre.imag + off)
 
 
 def is_exact(numbers):

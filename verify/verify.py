@@ -23,10 +23,10 @@ except ImportError as error:
     sys.exit(f"error: {error}; python-flint is needed: pip install python-flint")
 
 LONGEST = 4 << 20  # bytes of one certificate
-# The items of a proof, the theorem that each rests on, and what it gives: of `solve` a bound on the number of solutions (complex
-# ones included, or the real ones alone), or that there is no real one; of `mobility` the dimension of the motion.
+# The items of a proof, and the theorem of each: of `solve` the most solutions that there are, with complex ones or without, from the
+# system and what is under `aid`; of `mobility` the dimension of the motion.
 SOLUTIONS = {"general-bound": general, "geometry-bound": geometry, "eliminant": most_solutions}
-REAL_SOLUTIONS = {"real-zeros": most_real}
+REAL_SOLUTIONS = {"real-zeros": most_real, "distance": distance}
 MOTIONS = {"eliminant": immobile, "curve": curve, "regular": regular}
 
 
@@ -36,18 +36,18 @@ def check(certificate, file):
         certificate, ("format", "version", "data", "claim", "modes", "proof"), ("info",))
     if form != "looproot-certificate" or whole(version) != 1:
         raise Unreadable(f"found format {str(form)[:40]!r}, version {str(version)[:20]}, expected looproot-certificate, version 1")
-    verb, kind = claim.get("verb"), items(proof)[0].get("kind") if len(proof) == 1 else None
+    verb, is_motion = claim.get("verb"), claim.get("verb") == "mobility"
     if verb not in ("solve", "mobility") or claim.get("proof") != "proved":
         raise Refused("claim: only proved answers of solve and mobility are covered")
-    if len(proof) != 1:
+    if len(items(proof)) != 1:
         raise Refused(f"proof: found {len(proof)} items, expected one")
-    known = MOTIONS if verb == "mobility" else {**SOLUTIONS, **REAL_SOLUTIONS, "distance": distance}
-    if kind not in known:
-        raise Unreadable(f"proof: found the kind {str(kind)[:40]!r}, expected one of {', '.join(known)}")
-    system, = Reader(data, True).systems(verb == "solve")
-    if file is not None and not any(is_same(system, own) for own in file(verb == "solve")):
+    item, known = proof[0], MOTIONS if is_motion else {**SOLUTIONS, **REAL_SOLUTIONS}
+    if item.get("kind") not in known:
+        raise Unreadable(f"proof: found the kind {str(item.get('kind'))[:40]!r}, expected one of {', '.join(known)}")
+    system, = Reader(data, True).systems(not is_motion)
+    if file is not None and not any(is_same(system, own) for own in file(not is_motion)):
         raise Refused("file: the data of the certificate are those of no case of the file")
-    return of_motion(data, claim, modes, proof[0]) if verb == "mobility" else of_solutions(system, claim, modes, proof[0])
+    return of_motion(data, claim, modes, item) if is_motion else of_solutions(system, claim, modes, item)
 
 
 def of_motion(data, claim, modes, item):
@@ -61,32 +61,24 @@ def of_motion(data, claim, modes, item):
 
 
 def of_solutions(system, claim, modes, item):
-    _, status, _, real, stated = fields(claim, ("verb", "status", "proof", "real"), ("complex",))
-    kind = item["kind"]
+    kind, has_complex = item["kind"], item["kind"] in SOLUTIONS
+    _, status, _, real, *total = fields(claim, ("verb", "status", "proof", "real", *(("complex",) if has_complex else ())))
     if system.size != (7 if system.kinds == "platform" else 6):
         raise Refused(f"closure: {system.size} unknowns, where this checker proves loops of six")
-    if kind == "distance":
-        fields(item, ("kind",))
-        items(modes, 0)
-        complex_, found, counts_all = 0, 0, False
-        if not distance(system):
-            raise Refused("proof: distance: no length exceeds the others together")
-    else:
-        complex_, found = proved_modes(system, modes)
-        counts_all = kind in SOLUTIONS
-        _, value, *aid = fields(item, ("kind", "value", "aid") if kind in ("eliminant", "real-zeros") else ("kind", "value"))
-        bound = (SOLUTIONS if counts_all else REAL_SOLUTIONS)[kind](system, *aid)
-        if bound is None or whole(value) != bound:
-            raise Refused(f"proof: {kind}: the value is {value}, where the bound is {'not known' if bound is None else bound}")
-        if complex_ != bound or not counts_all and found != bound:
-            raise Refused(f"proof: {kind}: at most {bound} solutions, and {complex_} modes are proved, {found} of them real")
-    if whole(real) != found or (whole(stated) if counts_all else stated) != (complex_ if counts_all else None):
-        raise Refused(f"claim: real is {real} and complex {stated}, where {found} real ones of {complex_} are proved")
-    if status != ("complete" if found else "unreachable"):
-        raise Refused(f"claim: the status is {str(status)[:40]!r}, where {found} real solutions are proved")
-    if kind == "distance":
-        return "no real solution: proved"
-    return f"{complex_} solutions, {found} of them real: complete, proved" if counts_all else f"{found} real solutions: complete, proved"
+    keys = {"distance": (), "eliminant": ("value", "aid"), "real-zeros": ("value", "aid")}.get(kind, ("value",))
+    _, *stated = fields(item, ("kind", *keys))
+    found, found_real = proved_modes(system, modes)
+    bound = {**SOLUTIONS, **REAL_SOLUTIONS}[kind](system, *stated[1:])
+    if bound is None or stated and whole(stated[0]) != bound:
+        raise Refused(f"proof: {kind}: the value is {stated[:1]}, where the bound is {'not known' if bound is None else bound}")
+    if found != bound or not has_complex and found_real != bound:
+        raise Refused(f"proof: {kind}: at most {bound} solutions, and {found} modes are proved, {found_real} of them real")
+    if [whole(x) for x in (real, *total)] != [found_real, found][:1 + has_complex]:
+        raise Refused(f"claim: found other numbers than {found} solutions, {found_real} of them real")
+    if status != ("complete" if found_real else "unreachable"):
+        raise Refused(f"claim: the status is {str(status)[:40]!r}, where {found_real} real solutions are proved")
+    of_all = f"{found} solutions, {found_real} of them real" if has_complex else f"{found_real or 'no'} real solutions"
+    return f"{of_all}: complete, proved"
 
 
 def refuse_constant(text):
