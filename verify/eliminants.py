@@ -3,7 +3,7 @@
 A line with a marked point, of direction l through p, is written as the vector (1, p, l, p.p, p.l, m, w) with m = p x l and
 w = (p.p) l - 2 (p.l) p. Motions act on such vectors by matrices: numbers of degree 1 in cosines and sines, and 2 in distances.
 """
-from flint import acb, arb_mat, arb_poly, arb, fmpq, fmpq_mat, fmpq_poly
+from flint import acb, arb, arb_mat, arb_poly, fmpq, fmpq_mat, fmpq_poly
 
 from closures import TURN
 from motions import about_x, about_z, along, cross, dot, inverse, times, turned

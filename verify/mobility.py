@@ -30,7 +30,8 @@ def immobile(data, item, modes):
         parts += [frame, TURN, inverse(frame)]
     longer = Chain(parts, [])
     most_solutions(longer, aid)
-    proved_modes(longer, modes)
+    if proved_modes(longer, modes)[0] < 1:
+        raise Refused("modes: a solution of the longer loop is asked for")
     return 0
 
 

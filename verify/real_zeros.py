@@ -13,7 +13,8 @@ def most_real(system, aid):
     """The number of real zeros of the eliminant, which are simple: no more real solutions exist."""
     if system.kinds == "platform" or system.size != 6 or system.spherical:
         raise Refused("proof: real-zeros: only loops of six rotations and translations have an eliminant")
-    eliminant = Eliminant(system.links, system.kinds, *map(whole, fields(aid, ("first", "hidden"))))
+    links = [[[arb(x) for x in row] for row in link] for link in system.links]  # long rational numbers would take long
+    eliminant = Eliminant(links, system.kinds, *map(whole, fields(aid, ("first", "hidden"))))
     if not eliminant.is_angle:
         raise Refused("proof: real-zeros: the unknown is no angle")
     values = eliminant.polynomial_of_balls().coeffs()

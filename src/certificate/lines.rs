@@ -174,7 +174,7 @@ mod tests {
         assert_eq!(moved(&motion, &line(&p, &l)), line(&motion.apply(&p), &motion.rotate(&l)));
         let x = Rational::from((3, 7));
         let parts = split(&line(&p, &l), false);
-        let sum = |k: usize| Rational::from(&parts[2][k] * &x + &parts[1][k]) * &x + &parts[0][k];
+        let sum = |k: usize| (Rational::from(&parts[2][k] * &x) + &parts[1][k]) * &x + &parts[0][k];
         assert_eq!(std::array::from_fn(sum), moved(&Motion::translation_z(x.clone()), &line(&p, &l)));
     }
 }

@@ -166,3 +166,30 @@ fn shifted<S: Enclosing>(f: &[S], middle: &Rational, half: &Rational) -> Option<
     }
     Some(result)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The product of `x - root` and of `x^2 + 1`.
+    fn with_roots(roots: &[(i32, i32)]) -> Vec<Longer> {
+        let circle = Univariate::new([1, 0, 1].map(Rational::from).to_vec());
+        let linear = |root: &(i32, i32)| Univariate::new(vec![-Rational::from(*root), Rational::from(1)]);
+        let product = roots.iter().fold(circle, |product, root| product.mul(&linear(root)));
+        product.coefficients().iter().map(|c| Longer::from_rational(c).unwrap()).collect()
+    }
+
+    #[test]
+    fn simple_zeros_are_counted_and_no_others() {
+        for (roots, count) in [
+            (&[][..], Some(0)),
+            (&[(1, 2), (-1, 4), (50_001, 100_000)], Some(3)),
+            (&[(1, 2), (3, 2), (-5, 4)], Some(1)),
+            (&[(0, 1), (1, 1_000_000_000)], Some(2)),
+            (&[(1, 3), (1, 3)], None),
+            (&[(1, 1)], None),
+        ] {
+            assert_eq!(zeros(&with_roots(roots), 0), count, "{roots:?}");
+        }
+    }
+}

@@ -13,7 +13,7 @@ LOOPROOT = os.environ["LOOPROOT"]
 VERIFY = os.environ.get("VERIFY", str(ROOT / "verify" / "verify.py"))
 ENTRIES = ["arm/manocha_canny_1994", "arm/puma560", "arm/ur5", "arm/mc16_1deg", "arm/general_02real", "chain/arm_3r3p", "chain/srrr",
            "chain/arm_ruru", "chain/ik_puma_type", "loop/rrsrr", "loop/cccr_1_angle", "loop/rrrrrrr_every_input",
-           "platform/points_6_3", "chain/crcr", "chain/arm_5rp_parallel_pair"]
+           "platform/points_6_3", "platform/affine", "platform/hexapod", "platform/similar", "chain/crcr", "chain/arm_5rp_parallel_pair"]
 MOTIONS = ["overconstrained/bennett_a", "overconstrained/bennett_broken", "overconstrained/waldron_hybrid", "loop/rrrrrrr_every_input"]
 
 
@@ -56,6 +56,7 @@ def test_forged_motions_are_refused(certificates, tmp_path, checker):
         "another dimension": {**mobile, "claim": {**mobile["claim"], "mobility": 2}},
         "another word": {**mobile, "claim": {**mobile["claim"], "status": "immobile"}},
         "no proof": {**mobile, "proof": []},
+        "a loop at rest that names no solution": {**broken, "modes": []},
     }
     for name, certificate in forged.items():
         answer = CHECKERS[checker](written(tmp_path / "forged", certificate))
@@ -125,6 +126,56 @@ def test_distances_prove_that_nothing_is_in_reach(certificates, tmp_path, checke
     assert answer.returncode == 2 and "distance" in answer.stdout, answer
 
 
+AS_BUILT = """
+[mechanism]
+kind = "arm"
+convention = "dh"
+joints = [
+    { type="R", a=-0.0000005241, alpha=-1.5707962383, d=-0.0000002601 },
+    { type="R", a=0.4300002078, alpha=0.0000002514, d=0.1499991311 },
+    { type="R", a=0.0199990263, alpha=-1.5707956519, d=-0.0000004813 },
+    { type="R", a=-0.0000005313, alpha=1.5707973181, d=0.4299999405 },
+    { type="R", a=0.0000006729, alpha=-1.5707963741, d=0.0000002781 },
+    { type="R", a=-0.0000006988, alpha=0.0000002697, d=0.1000007361 },
+]
+
+[[pose]]
+matrix = [[-0.776832129004, -0.125333327847, -0.617108904714, -0.308696230834], [0.354482413651, 0.722928945972, -0.593056453879, 0.057579093148], [0.520455629001, -0.679459561715, -0.517165971653, -0.152592450013], [0.0, 0.0, 0.0, 1.0]]
+"""
+
+
+@pytest.fixture(scope="session")
+def as_built(certificates):
+    """An arm of which the links are off by up to 1e-6: its real solutions are certified without the complex ones."""
+    (certificates / "as_built.toml").write_text(AS_BUILT)
+    run(LOOPROOT, "solve", certificates / "as_built.toml", "-q", "--certificate", certificates / "as_built")
+    return certificates / "as_built"
+
+
+@pytest.mark.parametrize("checker", CHECKERS)
+def test_real_solutions_alone_are_certified(as_built, tmp_path, checker):
+    answer = CHECKERS[checker](as_built, "--file", f"{as_built}.toml")
+    assert answer.returncode == 0 and "8 real solutions" in answer.stdout, answer
+    true = json.loads(as_built.read_text())
+    modes, item = true["modes"], true["proof"][0]
+    of = lambda count: {"modes": modes[:count], "claim": {**true["claim"], "real": count}, "proof": [{**item, "value": count}]}
+    forged = {
+        "a mode left out": of(7),
+        "no modes": {**of(0), "claim": {**of(0)["claim"], "status": "unreachable"}},
+        "a mode left out, and the bound as it is": {**of(7), "proof": [item]},
+        "a mode twice": {"modes": modes[:7] + modes[:1]},
+        "a radius too small": {"modes": [{**modes[0], "radius": "1e-40"}, *modes[1:]]},
+        "a centre moved": {"modes": [{**modes[0], "centre": ["0.1", *modes[0]["centre"][1:]]}, *modes[1:]]},
+        "another bound": {"proof": [{**item, "value": 9}]},
+        "the complex solutions counted": {"claim": {**true["claim"], "complex": 16}},
+        "another unknown": {"proof": [{**item, "aid": {"first": 0, "hidden": 3}}]},
+        "another theorem": {"proof": [{"kind": "general-bound", "value": 8}], "claim": {**true["claim"], "complex": 8}},
+    }
+    for name, change in forged.items():
+        answer = CHECKERS[checker](written(tmp_path / "forged", {**true, **change}))
+        assert answer.returncode in (1, 2) and "holds" not in answer.stdout, (name, answer)
+
+
 BROKEN = {
     "cut": lambda text: text[: len(text) // 2],
     "another version": lambda text: text.replace('"version":1', '"version":2'),
@@ -156,8 +207,9 @@ def test_what_is_no_certificate_is_said_in_one_line(certificates, tmp_path, chec
     assert len(lines) == 1 and lines[0].startswith("error: ") and "Traceback" not in answer.stderr, answer
 
 
-@pytest.mark.parametrize("entry", ["arm/puma560", "chain/crcr", "loop/rrsrr", "overconstrained/bennett_a"])
-def test_no_other_number_may_change(certificates, capsys, entry):
+@pytest.mark.parametrize("entry", ["arm/puma560", "chain/crcr", "loop/rrsrr", "overconstrained/bennett_a",
+                                   "overconstrained/bennett_broken", "as_built"])
+def test_no_other_number_may_change(certificates, as_built, capsys, entry):
     """What is under `aid`, radii and centres may stay valid; all other changes are refused by both checkers."""
     sys.path.insert(0, str(pathlib.Path(__file__).parent))
     import mutations
