@@ -7,6 +7,7 @@ from flint import arb, ctx, fmpq
 
 ctx.prec = 384  # bits: more than the 250 of a pose by a quaternion of four integers of 60 bits
 LONGEST = 2000  # characters of a number
+MOST_BITS = 8000  # of a rational number: those of a decimal of 900 digits behind the point and the largest exponent
 
 
 class Unreadable(Exception):
@@ -34,7 +35,7 @@ FUNCTIONS = {"sqrt": arb.sqrt, "cos": arb.cos, "sin": arb.sin, "tan": arb.tan, "
 
 def decimal(text):
     """The rational number that a decimal is."""
-    match = DECIMAL.match(text) if isinstance(text, str) else None
+    match = DECIMAL.match(text) if isinstance(text, str) and not isinstance(text, Whole) else None
     if not match:
         raise Unreadable(f"found {str(text)[:40]!r}, expected a decimal number")
     sign, whole, tail, power = match.groups(default="")
@@ -47,15 +48,15 @@ def decimal(text):
 
 def expression(text):
     """The value of an expression, and whether it has a unit, of which it is the number of metres or radians."""
-    text = str(text)
-    if DECIMAL.match(text):
+    if isinstance(text, str) and DECIMAL.match(text):
         return decimal(text), False
+    text = str(text)
     try:
         # A unit binds less tightly than a sum, as `|` does.
         written = UNIT.sub(r" | \1", text[:LONGEST + 1].strip())
         tree = ast.parse(written, mode="eval").body if len(written) <= LONGEST and written.isascii() else None
         value = value_of(tree, written)
-        if not arb(value).is_finite():
+        if not arb(value).is_finite() or isinstance(value, fmpq) and value.height_bits() > MOST_BITS:
             raise ValueError
     except (ArithmeticError, MemoryError, RecursionError, SyntaxError, TypeError, ValueError):
         raise Unreadable(f"found {text[:40]!r}, expected a number") from None
