@@ -114,10 +114,20 @@ class Platform:
         return difference.abs_lower() > radius
 
 
+def centre_of(system, mode):
+    parts = [items(part, 2) if isinstance(part, list) else (part, "0") for part in items(mode["centre"], system.size)]
+    return [acb(decimal(re), decimal(im)) for re, im in parts], arb(decimal(mode["radius"]))
+
+
+def box_of(point, radius):
+    """All numbers whose parts differ by at most `radius` from those of the centre."""
+    off = arb(0, radius)
+    return [acb(x.real + off, x.imag + off) for x in point]
+
+
 def prove(system, point, radius):
     """Whether the ball holds exactly one zero of the closure equations, and this is a solution."""
-    off, size = arb(0, radius), system.size
-    box = [acb(x.real + off, x.imag + off) for x in point]
+    box, size = box_of(point, radius), system.size
     value, slope = acb_mat(size, 1, system.values(point)), system.jacobian(box)
     try:
         inverse = acb_mat(size, size, [x.mid() for x in acb_mat(size, size, [x.mid() for x in slope.entries()]).inv().entries()])
@@ -135,9 +145,8 @@ def proved_modes(system, values):
     """The numbers of all modes and of the real ones: each ball holds one solution, real or not as it says, and all differ."""
     modes = []
     for at, value in enumerate(items(values), 1):
-        centre, radius, real, multiplicity = fields(value, ("centre", "radius", "real", "multiplicity"))
-        parts = [items(part, 2) if isinstance(part, list) else (part, "0") for part in items(centre, system.size)]
-        point, radius = [acb(decimal(re), decimal(im)) for re, im in parts], arb(decimal(radius))
+        point, radius = centre_of(system, value)
+        _, _, real, multiplicity = fields(value, ("centre", "radius", "real", "multiplicity"))
         if not isinstance(real, bool):
             raise Unreadable(f"mode {at}: found {str(real)[:20]!r} as `real`, expected true or false")
         if not 0 < radius < MOST_RADIUS:

@@ -13,6 +13,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.set_int_max_str_digits(4300)
 try:
     from bounds import distance, general, geometry
+    from closure_polynomial import check_polynomial
     from closures import proved_modes
     from eliminants import most_solutions
     from mechanism import FAULTS, Reader, is_same, of_file
@@ -37,16 +38,23 @@ def check(certificate, file):
     if form != "looproot-certificate" or whole(version) != 1:
         raise Unreadable(f"found format {str(form)[:40]!r}, version {str(version)[:20]}, expected looproot-certificate, version 1")
     verb, is_motion = claim.get("verb"), claim.get("verb") == "mobility"
-    if verb not in ("solve", "mobility") or claim.get("proof") != "proved":
-        raise Refused("claim: only proved answers of solve and mobility are covered")
-    if len(items(proof)) != 1:
-        raise Refused(f"proof: found {len(proof)} items, expected one")
+    if verb not in ("solve", "mobility", "derive") or claim.get("proof") != "proved":
+        raise Refused("claim: only proved answers of solve, mobility and derive are covered")
+    if len(items(proof)) != (2 if verb == "derive" else 1):
+        raise Refused(f"proof: found {len(proof)} items, expected one, and a second one for derive")
     item, known = proof[0], MOTIONS if is_motion else {**SOLUTIONS, **REAL_SOLUTIONS}
     if item.get("kind") not in known:
         raise Unreadable(f"proof: found the kind {str(item.get('kind'))[:40]!r}, expected one of {', '.join(known)}")
     system, = Reader(data, True).systems(not is_motion)
     if file is not None and not any(is_same(system, own) for own in file(not is_motion)):
         raise Refused("file: the data of the certificate are those of no case of the file")
+    if verb == "derive":
+        of_polynomial = {key: claim.pop(key) for key in ("unknown", "degree", "polynomial")}
+        words = of_solutions(system, claim, modes, item)
+        if item["kind"] not in SOLUTIONS or proof[1].get("kind") != "membership":
+            raise Refused("proof: the roots of a polynomial are proved by all solutions, and by membership")
+        check_polynomial(system, modes, of_polynomial, proof[1])
+        return f"{words}; of the polynomial of degree {of_polynomial['degree']} they are all roots"
     return of_motion(data, claim, modes, item) if is_motion else of_solutions(system, claim, modes, item)
 
 

@@ -93,6 +93,16 @@ impl ChainClosure {
         OpenLoop { variables: self.variables, constants: first, before_gap: last, after_gap: Motion::identity() }
     }
 
+    /// Returns the index of a joint variable among the unknowns; `None` for a given one.
+    #[must_use]
+    pub fn unknown(&self, variable: usize) -> Option<usize> {
+        match self.given {
+            Some(given) if given == variable => None,
+            Some(given) if given < variable => variable.checked_sub(1),
+            _ => Some(variable),
+        }
+    }
+
     fn links<S: Enclosing>(&self) -> [Motion<S>; 6] {
         self.links.each_ref().map(|link| Motion {
             rotation: link.rotation.each_ref().map(|row| row.each_ref().map(S::of)),

@@ -9,6 +9,7 @@ use super::isolation::{Closed, proved_modes};
 use super::mode::Ball;
 use super::moving::mobility;
 use super::platform::PlatformClosure;
+use super::polynomial;
 use super::real_zeros;
 use super::record::{Claim, Record, count, fields};
 use crate::catalogue::Chains;
@@ -29,6 +30,13 @@ pub enum Holds {
         /// The number of real solutions.
         real: usize,
     },
+    /// A complete list of solutions, and a polynomial whose roots are the half-angle tangents of one unknown at them.
+    Polynomial {
+        /// The number of all solutions, which is the degree.
+        complex: usize,
+        /// The number of real solutions.
+        real: usize,
+    },
     /// A complete list of real solutions; the complex ones are not counted.
     Real(usize),
     /// No real solution exists; the complex ones are not counted.
@@ -42,6 +50,9 @@ impl fmt::Display for Holds {
         match self {
             Self::Solutions { complex, real } => {
                 write!(f, "{complex} solutions, {real} of them real: complete, proved")
+            }
+            Self::Polynomial { complex, real } => {
+                write!(f, "{complex} solutions, {real} of them real, at the roots of the polynomial: complete, proved")
             }
             Self::Real(real) => write!(f, "{real} real solutions: complete, proved"),
             Self::OutOfReach => write!(f, "no real solution: proved"),
@@ -57,8 +68,8 @@ impl fmt::Display for Holds {
 /// [`Fault`] names the first item that does not hold, or what cannot be read.
 pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> {
     let record = Record::read(certificate)?;
-    if !matches!(record.claim.verb.as_str(), "solve" | "mobility") || record.claim.proof != "proved" {
-        return refused("claim: only proved answers of solve and mobility are covered");
+    if !matches!(record.claim.verb.as_str(), "solve" | "mobility" | "derive") || record.claim.proof != "proved" {
+        return refused("claim: only proved answers of solve, mobility and derive are covered");
     }
     if record.claim.verb == "mobility" {
         return of_motion(record, file).map(Holds::Mobility);
@@ -76,12 +87,19 @@ pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> 
         }
     }
     let closed = closed(&entry, case)?;
-    let kind = match record.proof.as_slice() {
-        [item] => item.get("kind").and_then(Value::as_str).unwrap_or_default(),
+    let (proof, membership) = match (&record.claim.polynomial, record.proof.as_slice()) {
+        (Some(_), [bound, item]) if item.get("kind").and_then(Value::as_str) == Some(polynomial::KIND) => {
+            (std::slice::from_ref(bound), Some(item))
+        }
+        (Some(_), _) => return refused("proof: the roots of a polynomial are proved by all solutions, and by membership"),
+        (None, proof) => (proof, None),
+    };
+    let kind = match proof {
+        [item] if membership.is_none() => item.get("kind").and_then(Value::as_str).unwrap_or_default(),
         _ => "",
     };
     if kind == distance::KIND {
-        return out_of_reach(&closed, &record.proof[0], &record.claim, record.modes.len());
+        return out_of_reach(&closed, &proof[0], &record.claim, record.modes.len());
     }
     if let Some(at) = record.modes.iter().position(|mode| mode.multiplicity != 1) {
         return refused(format!("mode {}: a ball of an isolated simple solution counts once", at + 1));
@@ -89,9 +107,9 @@ pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> 
     let balls: Vec<Ball> = record.modes.into_iter().map(|mode| mode.ball).collect();
     proved_modes(&closed, &balls)?;
     if kind == real_zeros::KIND {
-        return real_list(&closed, &record.proof[0], &record.claim, &balls);
+        return real_list(&closed, &proof[0], &record.claim, &balls);
     }
-    let bound = bound(&closed, &record.proof, &balls)?;
+    let bound = bound(&closed, proof, &balls)?;
     let (complex, real) = (balls.len(), balls.iter().filter(|ball| ball.real).count());
     if bound != complex {
         return refused(format!("proof: at most {bound} solutions, and {complex} modes are proved"));
@@ -100,6 +118,11 @@ pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> 
         return refused(format!("claim: other numbers than {complex} solutions, {real} of them real, are proved"));
     }
     check_status(&record.claim, real)?;
+    if let (Some(claim), Some(item)) = (&record.claim.polynomial, membership) {
+        let Closed::Chain(closure) = &closed else { return refused("proof: membership: only loops have an eliminant") };
+        polynomial::check_polynomial(closure, &balls, claim, item)?;
+        return Ok(Holds::Polynomial { complex, real });
+    }
     Ok(Holds::Solutions { complex, real })
 }
 

@@ -73,6 +73,31 @@ fn solutions_of_loop(
     starts: &[Complex<f64>],
 ) -> Result<usize, Fault> {
     let no = |why: &str| refused(format!("proof: eliminant: {why}"));
+    let (rows, minor, is_angle) = prepared(links, variables, choice)?;
+    if is_angle && minor.degree() != Some(DEGREE) {
+        return no("an angle of pi is a root");
+    }
+    let circle = Univariate::new(vec![Rational::from(1), Rational::new(), Rational::from(1)]);
+    let minor = if is_angle { minor.remove_factor(&circle).1 } else { minor };
+    let Some(roots) = all_roots(&minor.square_free_part(), starts) else { return no("its roots are not told apart") };
+    let Some(rows) = enclosed(&rows) else { return no("the numbers are too long") };
+    let mut most = 0;
+    for root in &roots {
+        match solutions_at(&rows, root) {
+            Some(few) => most += few,
+            None => return no("too many solutions may have one value"),
+        }
+    }
+    Ok(most)
+}
+
+/// Returns the matrix of a choice, a nonzero minor of it, and whether the hidden unknown is an angle.
+fn prepared(
+    links: &[Motion<Rational>; 6],
+    variables: &[Variable; 6],
+    choice: &Choice,
+) -> Result<(Rows<Rational>, Univariate<Rational>, bool), Fault> {
+    let no = |why: &str| refused(format!("proof: eliminant: {why}"));
     if choice.first > 5 || choice.hidden > 2 {
         return no("no such unknown");
     }
@@ -97,21 +122,18 @@ fn solutions_of_loop(
         return no("the other unknowns do not follow from three of them");
     };
     let minor = minor(&rows)?;
-    if is_angle && minor.degree() != Some(DEGREE) {
-        return no("an angle of pi is a root");
-    }
-    let circle = Univariate::new(vec![Rational::from(1), Rational::new(), Rational::from(1)]);
-    let minor = if is_angle { minor.remove_factor(&circle).1 } else { minor };
-    let Some(roots) = all_roots(&minor.square_free_part(), starts) else { return no("its roots are not told apart") };
-    let Some(rows) = enclosed(&rows) else { return no("the numbers are too long") };
-    let mut most = 0;
-    for root in &roots {
-        match solutions_at(&rows, root) {
-            Some(few) => most += few,
-            None => return no("too many solutions may have one value"),
-        }
-    }
-    Ok(most)
+    Ok((rows, minor, is_angle))
+}
+
+/// Returns a nonzero minor for the unknown `first + hidden` of a loop that is read from the unknown `first`.
+pub(super) fn minor_of(
+    links: &[Motion<Rational>; 6],
+    variables: &[Variable; 6],
+    first: usize,
+    hidden: usize,
+) -> Result<Univariate<Rational>, Fault> {
+    let choice = Choice { first, hidden, shift: Rational::new() };
+    prepared(links, variables, &choice).map(|(_, minor, _)| minor)
 }
 
 fn bits(x: &Rational) -> u32 {

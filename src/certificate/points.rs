@@ -10,6 +10,8 @@ use rug::{Float, Rational};
 
 type Vector = [Rational; 3];
 type Points = [Vector; 6];
+/// The numbers v.a of all points of the base, and w.b of the plate.
+type Heights = [Vec<Longer>; 2];
 
 /// Maximum number of poses of any platform.
 const MOST: usize = 40;
@@ -110,7 +112,7 @@ fn normal_to(d: &Vector, e: &Vector, base: &Points, plate: &Points) -> usize {
     let (lines, others) = (lines_along(d, base), lines_along(e, plate));
     let bodies = |signs: [i32; 2]| Some([heights(&normal(d, signs[0])?, base), heights(&normal(e, signs[1])?, plate)]);
     let along: Vec<[Rational; 2]> = (0..6).map(|k| [dot(d, &base[k]), dot(e, &plate[k])]).collect();
-    let count = |of: &dyn Fn(&[Vec<Longer>; 2]) -> Option<[Longer; 2]>, times: usize| {
+    let count = |of: &dyn Fn(&Heights) -> Option<[Longer; 2]>, times: usize| {
         let proved = |signs: &[i32; 2]| {
             let bodies = bodies(*signs)?;
             is_isolated(&along, &bodies, &of(&bodies)?)
@@ -159,7 +161,7 @@ fn heights(v: &[Longer; 3], points: &Points) -> Vec<Longer> {
 }
 
 /// Returns nu and mu of three legs: `a b - mu a - nu b + (nu mu - sigma) = 0`.
-fn by_classes(classes: &[usize], [a, b]: &[Vec<Longer>; 2]) -> Option<[Longer; 2]> {
+fn by_classes(classes: &[usize], [a, b]: &Heights) -> Option<[Longer; 2]> {
     let row = |&k: &usize| vec![a[k].clone(), b[k].clone(), Longer::one(), a[k].mul(&b[k])];
     let solved = Echelon::among(classes.iter().map(row).collect(), 4, 3);
     let value = |column: usize| {
@@ -171,7 +173,7 @@ fn by_classes(classes: &[usize], [a, b]: &[Vec<Longer>; 2]) -> Option<[Longer; 2
 
 /// Returns whether the derivatives of the six equations by v, w, nu, mu and sigma have the rank 5: the direction of the base is tangent
 /// to the isotropic directions at v, that of the plate at w.
-fn is_isolated(along: &[[Rational; 2]], [a, b]: &[Vec<Longer>; 2], [nu, mu]: &[Longer; 2]) -> Option<bool> {
+fn is_isolated(along: &[[Rational; 2]], [a, b]: &Heights, [nu, mu]: &[Longer; 2]) -> Option<bool> {
     let row = |k: usize| {
         let (of_a, of_b) = (a[k].sub(nu), b[k].sub(mu));
         let along = along[k].each_ref().map(Longer::from_rational);

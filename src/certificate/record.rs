@@ -2,6 +2,7 @@
 
 use super::fault::{Fault, shortened, unreadable};
 use super::mode::{Ball, Unproved};
+use super::polynomial;
 use rug::{Integer, Rational, ops::Pow};
 use serde_json::{Map, Value};
 
@@ -35,6 +36,8 @@ pub(super) struct Claim {
     pub real: Option<usize>,
     /// The dimension of the motion, for `mobility`.
     pub mobility: Option<usize>,
+    /// The polynomial of `derive`.
+    pub polynomial: Option<polynomial::Claim>,
 }
 
 impl Record {
@@ -63,12 +66,26 @@ fn claim(value: &Value) -> Result<Claim, Fault> {
     if is_mobility {
         let [verb, status, word, mobility] = fields(value, ["verb", "status", "proof", "mobility"], &[])?;
         let (verb, status, proof) = words(verb, status, word)?;
-        return Ok(Claim { verb, status, proof, complex: None, real: None, mobility: Some(count(mobility)?) });
+        return Ok(Claim { verb, status, proof, complex: None, real: None, mobility: Some(count(mobility)?), polynomial: None });
     }
+    let of_polynomial = ["unknown", "degree", "polynomial"];
+    let is_derived = value.get("verb").and_then(Value::as_str) == Some("derive");
+    let (value, polynomial) = if is_derived {
+        let needed = ["verb", "status", "proof", "real", "complex", "unknown", "degree", "polynomial"];
+        let [.., unknown, degree, coefficients] = fields(value, needed, &[])?;
+        let mut rest = value.clone();
+        if let Value::Object(table) = &mut rest {
+            table.retain(|key, _| !of_polynomial.contains(&key.as_str()));
+        }
+        (rest, Some(polynomial::Claim::read(unknown, degree, coefficients)?))
+    } else {
+        (value.clone(), None)
+    };
+    let value = &value;
     let [verb, status, word, real] = fields(value, ["verb", "status", "proof", "real"], &["complex"])?;
     let (verb, status, proof) = words(verb, status, word)?;
     let complex = value.get("complex").map(count).transpose()?;
-    Ok(Claim { verb, status, proof, complex, real: Some(count(real)?), mobility: None })
+    Ok(Claim { verb, status, proof, complex, real: Some(count(real)?), mobility: None, polynomial })
 }
 
 fn mode(value: &Value) -> Result<Unproved, Fault> {

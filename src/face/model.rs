@@ -191,7 +191,7 @@ pub fn verify(certificates: &str, file: Option<&str>) -> Result<Value> {
     let mut found = Vec::new();
     let read = check_all(certificates, entry.as_ref(), |_, outcome| {
         found.push(match outcome {
-            Ok(Holds::Solutions { complex, real }) => {
+            Ok(Holds::Solutions { complex, real } | Holds::Polynomial { complex, real }) => {
                 json!({ "holds": true, "complex": complex, "real": real, "mobility": null, "fault": null })
             }
             Ok(Holds::Real(real)) => {

@@ -1,13 +1,15 @@
 //! The certificate of an answer: docs/certificate.md.
 
-use crate::catalogue::entry::{Case, Entry};
+use crate::catalogue::entry::{Case, Design, Entry};
 use crate::assembly::{Assembly, Roots, Solver, Workspace};
 use crate::certificate::{
     Ball, ChainClosure, Closed, FORMAT, Fault, Near, VERSION, balls, check, closed, data_of, data_of_loop, proof_by_distance, proof_of,
-    proof_of_motion, proof_of_real_list, proof_of_rest,
+    proof_of_motion, proof_of_polynomial, proof_of_real_list, proof_of_rest,
 };
+use crate::derivation::Derivation;
+use crate::kinematics::joint::Variable;
 use crate::kinematics::motion::Motion;
-use crate::mechanism::{FullMode, Solution};
+use crate::mechanism::{FullMode, Mechanism, Solution};
 use crate::mobility::Mobility;
 use crate::verdict::Status;
 use num_complex::Complex;
@@ -40,7 +42,7 @@ pub fn certificate(entry: &Entry, number: usize, case: &Case, solution: &Solutio
         let claim = json!({ "verb": "solve", "status": "unreachable", "proof": "proved", "real": 0 });
         distance.map(|proof| (claim, Vec::new(), proof)).ok_or(reason)
     })?;
-    accepted(&info, &data, &claim, &balls, &proof)
+    accepted(&info, &data, &claim, &balls, &[proof])
 }
 
 /// Returns the claim of an answer that counts all its solutions, a ball around each, and the item that bounds their number.
@@ -83,6 +85,44 @@ fn real_list(closed: &Closed, solution: &Solution) -> Option<(Value, Vec<Ball>, 
     Some((json!({ "verb": "solve", "status": status, "proof": "proved", "real": balls.len() }), balls, proof))
 }
 
+/// Returns the certificate of a closure polynomial: its roots are the half-angle tangents of one joint at all solutions. The checker of
+/// [`crate::certificate`] accepts it.
+///
+/// # Errors
+/// A clause that says why there is none.
+pub fn certificate_of_polynomial(
+    entry: &Entry,
+    number: usize,
+    case: &Case,
+    derivation: &Derivation,
+) -> Result<Value, String> {
+    let (Design::Arm(chain) | Design::Loop(chain)) = &entry.design else {
+        return Err("polynomials of platforms are not covered".to_owned());
+    };
+    let (Some(polynomial), Some((variable, Variable::Rotation))) = (&derivation.polynomial, derivation.unknown(chain))
+    else {
+        return Err("only polynomials in the tangent of half an angle are covered".to_owned());
+    };
+    let data = data_of(entry, case)?;
+    let closed = closed(entry, case).map_err(|fault| words(&fault))?;
+    let mechanism = Mechanism::prepare(entry).map_err(|error| error.to_string())?;
+    let solution = mechanism.solve(case, Roots::All, &mut Workspace::default(), &mut Assembly::default());
+    let (mut claim, balls, proof) = counted(&closed, &solution.map_err(|error| error.to_string())?)?;
+    let no = || "the polynomial is no factor of an eliminant whose other roots belong to no solution".to_owned();
+    let Closed::Chain(closure) = &closed else { return Err(no()) };
+    let unknown = closure.unknown(variable).ok_or_else(no)?;
+    let coefficients = polynomial.coefficients.coefficients();
+    let membership = proof_of_polynomial(closure, &balls, unknown, coefficients).ok_or_else(no)?;
+    let texts: Vec<String> = coefficients.iter().map(Integer::to_string).collect();
+    claim["verb"] = json!("derive");
+    claim["unknown"] = json!(unknown + 1);
+    claim["degree"] = json!(coefficients.len() - 1);
+    claim["polynomial"] = json!(texts);
+    let info =
+        json!({ "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": entry.name, "title": entry.title, "case": number });
+    accepted(&info, &data, &claim, &balls, &[proof, membership])
+}
+
 /// Returns solutions of a loop that are not proved.
 fn found(closure: &ChainClosure) -> Vec<Near> {
     let mut assembly = Assembly::default();
@@ -114,11 +154,11 @@ pub fn certificate_of_motion(entry: &Entry, answer: &Mobility) -> Result<Value, 
         "proof": "proved",
         "mobility": dimension,
     });
-    accepted(&info, &data, &claim, &balls, &proof)
+    accepted(&info, &data, &claim, &balls, &[proof])
 }
 
 /// Returns the certificate of these parts, once the checker has accepted it.
-fn accepted(info: &Value, data: &Value, claim: &Value, balls: &[Ball], proof: &Value) -> Result<Value, String> {
+fn accepted(info: &Value, data: &Value, claim: &Value, balls: &[Ball], proof: &[Value]) -> Result<Value, String> {
     let certificate = json!({
         "format": FORMAT,
         "version": VERSION,
@@ -126,7 +166,7 @@ fn accepted(info: &Value, data: &Value, claim: &Value, balls: &[Ball], proof: &V
         "data": data,
         "claim": claim,
         "modes": balls.iter().map(mode).collect::<Vec<_>>(),
-        "proof": [proof],
+        "proof": proof,
     });
     check(&certificate, None).map_err(|fault| words(&fault))?;
     Ok(certificate)
