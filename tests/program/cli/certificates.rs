@@ -179,3 +179,27 @@ fn a_loop_that_does_not_move_names_a_solution_of_the_longer_loop() {
         assert!(checked.code == 2 && checked.out.contains(says), "{pointer}: {}", checked.out);
     }
 }
+
+#[test]
+fn the_roots_of_a_closure_polynomial_are_certified() {
+    let path = certified("derive", "chain/ik_general");
+    let checked = run(&["verify", &path, "--file", "chain/ik_general"]);
+    assert!(checked.code == 0 && checked.out.contains("at the roots of the polynomial"), "{}", checked.out);
+    let true_one = json(&fs::read_to_string(&path).unwrap());
+    for (pointer, value, says) in [
+        ("/claim/polynomial/3", json!("7"), "membership"),
+        ("/claim/degree", json!(15), "claim"),
+        ("/claim/unknown", json!(2), "membership"),
+        ("/claim/complex", json!(15), "claim"),
+        ("/proof", json!([{ "kind": "general-bound", "value": 16 }]), "proof"),
+        ("/proof/1/aid/first", json!(7), "membership"),
+        ("/modes/0/centre/0", json!("0.1"), "mode 1"),
+    ] {
+        let mut forged = true_one.clone();
+        *forged.pointer_mut(pointer).unwrap() = value;
+        let checked = run(&["verify", &file("certificates/forged", forged.to_string())]);
+        assert!(checked.code == 2 && checked.out.contains(says), "{pointer}: {}", checked.out);
+    }
+    let said = run(&["derive", "platform/affine", "-q", "--certificate", &file("certificates/none", "")]);
+    assert!(said.err.contains("no certificate"), "{}", said.err);
+}

@@ -351,6 +351,9 @@ pub struct DeriveOptions {
     /// With two parameters: the number of columns, in each of which the cells of the second one are exact
     #[arg(long, value_name = "N", requires = "discriminant", default_value = "72", value_parser = steps)]
     pub columns: usize,
+    /// Write a certificate of a proved polynomial of an arm or a loop to this file: `looproot verify` and verify/verify.py check it
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["symbolic", "bless", "atlas", "transference", "trace", "by", "discriminant"])]
+    pub certificate: Option<PathBuf>,
     /// Seed of the primes that are drawn for counts: the same seed repeats an answer [default: drawn]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..1 << 53))]
     pub seed: Option<u64>,

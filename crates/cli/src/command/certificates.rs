@@ -1,10 +1,11 @@
 //! The file of `--certificate`.
 
 use looproot::internal::catalogue::entry::{Case, Entry};
+use looproot::internal::derivation::Derivation;
 use looproot::internal::error::Error;
 use looproot::internal::mechanism::Solution;
 use looproot::internal::mobility::Mobility;
-use looproot::internal::report::certificate::{certificate, certificate_of_motion};
+use looproot::internal::report::certificate::{certificate, certificate_of_motion, certificate_of_polynomial};
 use looproot::internal::report::model::case_noun;
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -28,6 +29,23 @@ impl Certificates {
             Err(reason) => {
                 let noun = case_noun(entry);
                 let _ = writeln!(std::io::stderr(), "note: no certificate of {noun} {number}: {reason}");
+                Ok(())
+            }
+        }
+    }
+
+    /// Writes the certificate of a closure polynomial, or reports on stderr why there is none.
+    pub fn add_polynomial(
+        &mut self,
+        entry: &Entry,
+        number: usize,
+        case: &Case,
+        derivation: &Derivation,
+    ) -> Result<(), Error> {
+        match certificate_of_polynomial(entry, number, case, derivation) {
+            Ok(value) => self.write(&format!("{value}\n")),
+            Err(reason) => {
+                let _ = writeln!(std::io::stderr(), "note: no certificate: {reason}");
                 Ok(())
             }
         }

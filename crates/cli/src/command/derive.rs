@@ -2,6 +2,7 @@
 
 use super::arguments::DeriveOptions;
 use super::bless;
+use super::certificates::Certificates;
 use super::discriminant::{self, Asked};
 use super::exit::{Exit, Fault, unexpected};
 use super::output::Output;
@@ -43,6 +44,7 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
     let read = Options { chains, ..options.read.options() };
     let mut entry = match load_solvable(mechanism, &read)? {
         Any::Entry(entry) if !options.cognates => *entry,
+        Any::Linkage(_) | Any::Sphere(_) if options.certificate.is_some() => return Err(without_certificate()),
         Any::Linkage(file) => return super::linkage_derive::run(options, mechanism, &file),
         _ if options.cognates => {
             let message = "found --cognates, expected it for a four-bar in the plane";
@@ -99,6 +101,7 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
         (written, if derivation.proved { Exit::Complete } else { Exit::NotProved })
     } else {
         let derivation = derive_any(&entry, case).map_err(|error| in_place(error, mechanism, &entry))?;
+        certify(options, (&entry, index), &derivation)?;
         let written = if options.json {
             document(json(&entry, index + 1, &derivation), &whole)
         } else if let Some(format) = options.format {
@@ -122,6 +125,21 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
     output.writer.write_all(written.as_bytes())?;
     output.writer.flush()?;
     Ok(exit)
+}
+
+/// Writes the certificate that is asked for.
+fn certify(options: &DeriveOptions, (entry, index): (&Entry, usize), derivation: &Derivation) -> Result<(), Fault> {
+    if let Some(path) = &options.certificate {
+        let mut certificates = Certificates::new(path);
+        certificates.add_polynomial(entry, index + 1, &entry.cases[index], derivation)?;
+        certificates.close()?;
+    }
+    Ok(())
+}
+
+fn without_certificate() -> Fault {
+    let message = "found --certificate with a linkage, expected an arm or a loop: linkages have no certificate yet";
+    Error::Invalid(message.to_owned()).into()
 }
 
 /// Derives the closure polynomial by one elimination.
