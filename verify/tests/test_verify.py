@@ -126,6 +126,32 @@ def test_distances_prove_that_nothing_is_in_reach(certificates, tmp_path, checke
     assert answer.returncode == 2 and "distance" in answer.stdout, answer
 
 
+@pytest.mark.parametrize("checker", CHECKERS)
+@pytest.mark.parametrize("entry", ["chain/ik_general", "loop/crrrrr_every_input"])
+def test_closure_polynomials_are_certified(tmp_path, checker, entry):
+    path = tmp_path / "derived"
+    run(LOOPROOT, "derive", f"equations/{entry}.toml", "-q", "--certificate", path)
+    answer = CHECKERS[checker](path, "--file", f"equations/{entry}.toml")
+    assert answer.returncode == 0 and "polynomial" in answer.stdout, answer
+    true = json.loads(path.read_text())
+    bound, member = true["proof"]
+    coefficients = true["claim"]["polynomial"]
+    forged = {
+        "another coefficient": {"claim": {**true["claim"], "polynomial": ["7", *coefficients[1:]]}},
+        "a common factor": {"claim": {**true["claim"], "polynomial": [str(2 * int(c)) for c in coefficients]}},
+        "another degree": {"claim": {**true["claim"], "polynomial": coefficients[1:], "degree": 15}},
+        "another unknown": {"claim": {**true["claim"], "unknown": true["claim"]["unknown"] % 6 + 1}},
+        "no membership": {"proof": [bound]},
+        "no bound": {"proof": [member]},
+        "no list of all solutions": {"proof": [{"kind": "distance"}, member], "modes": []},
+        "a mode left out": {"modes": true["modes"][1:]},
+        "a claim of solve": {"claim": {**true["claim"], "verb": "solve"}},
+    }
+    for name, change in forged.items():
+        answer = CHECKERS[checker](written(tmp_path / "forged", {**true, **change}))
+        assert answer.returncode in (1, 2) and "holds" not in answer.stdout, (name, answer)
+
+
 AS_BUILT = """
 [mechanism]
 kind = "arm"
