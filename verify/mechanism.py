@@ -2,6 +2,7 @@
 
 Of an arm or loop there remains F_1(x_1) L_1 ... F_n(x_n) L_n = 1: rotations about and translations along z, and constant links.
 """
+import functools
 import json
 import tomllib
 from math import gcd
@@ -167,6 +168,7 @@ def is_same(one, other):
     return shape(one) == shape(other) and all(x == y if is_exact((x, y)) else arb(x).overlaps(arb(y)) for x, y in pairs)
 
 
+@functools.cache
 def of_file(path, has_input):
     """The cases of a mechanism file."""
     try:
