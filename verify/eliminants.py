@@ -6,7 +6,7 @@ w = (p.p) l - 2 (p.l) p. Motions act on such vectors by matrices: numbers of deg
 from flint import acb, arb, arb_mat, arb_poly, fmpq, fmpq_mat, fmpq_poly
 
 from closures import TURN
-from motions import about_x, about_z, along, cross, dot, inverse, times, turned
+from motions import about_z, along, column, cross, dot, inverse, times, turned
 from quantities import Refused, by_half_tangent, decimal, fields, is_exact, whole
 
 LONGEST = 512  # bits of a number of a link
@@ -18,12 +18,12 @@ SHAPES = [(i, j) for i in range(4) for j in range(3)]  # the exponents of the co
 
 def moved(motion, line):
     """The line behind a motion."""
-    one, p, l, square, inner, m, w = line[0], line[1:4], line[4:7], line[7], line[8], line[9:12], line[12:]
-    t = [row[3] for row in motion[:3]]
+    one, p, l, square, inner, m, w, t = line[0], line[1:4], line[4:7], line[7], line[8], line[9:12], line[12:], column(motion, 3)
     p, l, m, w = (turned(motion, v) for v in (p, l, m, w))
-    tt, tl, tm, tp, txl = dot(t, t), dot(t, l), cross(t, m), dot(t, p), cross(t, l)
-    return [one, *(x + y * one for x, y in zip(p, t)), *l, square + 2 * tp + tt * one, inner + tl, *(x + y for x, y in zip(m, txl)),
-            *(x - 2 * y + tt * z - 2 * (tl + inner) * e for x, y, z, e in zip(w, tm, l, t))]
+    tt, tl = dot(t, t), dot(t, l)
+    return [one, *(x + y * one for x, y in zip(p, t)), *l, square + 2 * dot(t, p) + tt * one, inner + tl,
+            *(x + y for x, y in zip(m, cross(t, l))),
+            *(x - 2 * y + tt * z - 2 * (tl + inner) * e for x, y, z, e in zip(w, cross(t, m), l, t))]
 
 
 def split(line, kind):
@@ -103,8 +103,7 @@ class Eliminant:
         steps = eliminate(at(self.rows, fmpq(17, 5)), range(12))[0]  # a number at which nothing special is expected
         if len(steps) < 12:
             raise Refused("proof: eliminant: it is 0")
-        self.chosen = [self.rows[i] for i, _ in steps]
-        self.points = [fmpq(k) for k in range(-12, 13)]
+        self.chosen, self.points = [self.rows[i] for i, _ in steps], [fmpq(k) for k in range(-12, 13)]
 
     def polynomial(self):
         """The minor over the rational numbers, of degree 24 at most, from 25 of its values."""
