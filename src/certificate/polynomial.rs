@@ -70,7 +70,7 @@ pub(super) fn check_polynomial(closure: &ChainClosure, balls: &[Ball], claim: &C
     if first > 5 || hidden > 2 || !is_own {
         return no("the unknown is not the angle of this eliminant");
     }
-    let content = claim.coefficients.iter().fold(Integer::new(), |common, c| common.gcd(c));
+    let content = claim.coefficients.iter().fold(Integer::new(), Integer::gcd);
     let leads = claim.coefficients.last().is_some_and(|last| *last > 0);
     if claim.coefficients.len() != claim.degree + 1 || !leads || content != 1 {
         return refused("claim: the polynomial is not of this degree, or has a common factor or another sign");
