@@ -37,10 +37,11 @@ pub fn certificate(entry: &Entry, number: usize, case: &Case, solution: &Solutio
     let closed = closed(entry, case).map_err(|fault| words(&fault))?;
     let info =
         json!({ "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": entry.name, "title": entry.title, "case": number });
-    let (claim, balls, proof) = counted(&closed, solution).or_else(|reason| real_list(&closed, solution).ok_or(reason)).or_else(|reason| {
+    let (claim, balls, proof) = counted(&closed, solution).or_else(|reason| {
         let distance = if verdict.status == Status::Unreachable { proof_by_distance(&closed) } else { None };
         let claim = json!({ "verb": "solve", "status": "unreachable", "proof": "proved", "real": 0 });
-        distance.map(|proof| (claim, Vec::new(), proof)).ok_or(reason)
+        let by_distance = distance.map(|proof| (claim, Vec::new(), proof));
+        by_distance.or_else(|| real_list(&closed, solution)).ok_or(reason)
     })?;
     accepted(&info, &data, &claim, &balls, &[proof])
 }

@@ -27,7 +27,7 @@ fn an_eliminant_bounds_fewer_solutions_than_the_general_number() {
     forged["claim"]["complex"] = json!(3);
     for value in [3, 4] {
         forged["proof"][0]["value"] = json!(value);
-        let checked = run(&["verify", &file("certificates/forged", forged.to_string())]);
+        let checked = run(&["verify", &file("certificates/forged_fewer", forged.to_string())]);
         assert!(checked.code == 2 && checked.out.contains("proof"), "{}", checked.out);
     }
 }
@@ -48,10 +48,10 @@ fn whether_a_loop_moves_is_certified() {
         let text = fs::read_to_string(&path).unwrap();
         let forged = text.replace("\"status\":\"mobile\"", "\"status\":\"immobile\"");
         let forged = if forged == text { text.replace("\"mobility\":0", "\"mobility\":1") } else { forged };
-        let checked = run(&["verify", &file("certificates/forged", forged)]);
+        let checked = run(&["verify", &file("certificates/forged_motion", forged)]);
         assert!(checked.code == 2 && checked.out.contains("claim"), "{entry}: {}", checked.out);
     }
-    let said = run(&["mobility", "framework/steffen", "--certificate", &file("certificates/none", "")]);
+    let said = run(&["mobility", "framework/steffen", "--certificate", &file("certificates/none_motion", "")]);
     assert!(said.code == 1 && said.err.lines().count() == 1, "{}", said.err);
 }
 
@@ -87,7 +87,7 @@ fn distances_prove_that_nothing_is_in_reach() {
     let forged = |change: &dyn Fn(&mut serde_json::Value), says: &str| {
         let mut forged = true_one.clone();
         change(&mut forged);
-        let checked = run(&["verify", &file("certificates/forged", forged.to_string())]);
+        let checked = run(&["verify", &file("certificates/forged_distance", forged.to_string())]);
         assert!(checked.code == 2 && checked.out.contains(says), "{says}: {}", checked.out);
     };
     let all_near = |own: &mut serde_json::Value| {
@@ -143,7 +143,7 @@ fn real_zeros_prove_that_no_real_solution_is_missing() {
     let forged = |change: &dyn Fn(&mut serde_json::Value), says: &str| {
         let mut forged = true_one.clone();
         change(&mut forged);
-        let checked = run(&["verify", &file("certificates/forged", forged.to_string())]);
+        let checked = run(&["verify", &file("certificates/forged_real", forged.to_string())]);
         assert!(checked.code == 2 && checked.out.contains(says), "{says}: {}", checked.out);
     };
     let with = |modes: usize| {
@@ -175,7 +175,7 @@ fn a_loop_that_does_not_move_names_a_solution_of_the_longer_loop() {
     ] {
         let mut forged = true_one.clone();
         *forged.pointer_mut(pointer).unwrap() = value;
-        let checked = run(&["verify", &file("certificates/forged", forged.to_string())]);
+        let checked = run(&["verify", &file("certificates/forged_rest", forged.to_string())]);
         assert!(checked.code == 2 && checked.out.contains(says), "{pointer}: {}", checked.out);
     }
 }
@@ -197,9 +197,9 @@ fn the_roots_of_a_closure_polynomial_are_certified() {
     ] {
         let mut forged = true_one.clone();
         *forged.pointer_mut(pointer).unwrap() = value;
-        let checked = run(&["verify", &file("certificates/forged", forged.to_string())]);
+        let checked = run(&["verify", &file("certificates/forged_polynomial", forged.to_string())]);
         assert!(checked.code == 2 && checked.out.contains(says), "{pointer}: {}", checked.out);
     }
-    let said = run(&["derive", "platform/affine", "-q", "--certificate", &file("certificates/none", "")]);
+    let said = run(&["derive", "platform/affine", "-q", "--certificate", &file("certificates/none_polynomial", "")]);
     assert!(said.err.contains("no certificate"), "{}", said.err);
 }
