@@ -51,10 +51,7 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
             return Err(Error::Invalid(message.to_owned()).into());
         }
         Any::Sphere(file) => return super::sphere::derive(options, mechanism, &file),
-        Any::Space(_) => {
-            let message = "closure polynomials of linkages in space are not derived yet";
-            return Err(Error::Unsupported(message.to_owned()).into());
-        }
+        Any::Space(_) => return Err(in_space()),
         other => return Err(unexpected(mechanism, other.kind(), "an arm, a loop, a platform or a linkage")),
     };
     if let Some(asked) = &options.trace {
@@ -135,6 +132,10 @@ fn certify(options: &DeriveOptions, (entry, index): (&Entry, usize), derivation:
         certificates.close()?;
     }
     Ok(())
+}
+
+fn in_space() -> Fault {
+    Error::Unsupported("closure polynomials of linkages in space are not derived yet".to_owned()).into()
 }
 
 fn without_certificate() -> Fault {
