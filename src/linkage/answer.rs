@@ -1,6 +1,6 @@
 //! The answer to one case of a linkage: its assemblies as numbers, and the verdict on their list.
 
-use super::assembly::{Asked, Assemblies, Route, Solution, assemblies, assemblies_within};
+use super::assembly::{Asked, Assemblies, Family, FamilyKind, Route, Solution, assemblies, assemblies_within};
 use super::isotropic::{Value, middle};
 use super::state::{Number, State, number};
 use crate::algebra::ring::Ring;
@@ -106,10 +106,10 @@ pub fn solve_asked(linkage: &Linkage, given: &[Given], accuracy: Accuracy, asked
         };
         b.real.cmp(&a.real).then_with(angles)
     });
-    let families = found.curves.iter().filter(|(state, _)| is_one(state)).map(|(state, joints)| LinkageFamily {
-        dimension: 1,
-        joints: joints.clone(),
-        sample: mode(linkage, state),
+    let families = found.curves.iter().filter(|family| is_one(&family.state)).map(|family| LinkageFamily {
+        dimension: family.dimension,
+        joints: family.joints.clone(),
+        sample: mode(linkage, &family.state),
     });
     let families: Vec<LinkageFamily> = families.collect();
     let verdict = verdict(&found, &modes, &families, exact);
@@ -131,6 +131,7 @@ fn route(group: &Solution) -> String {
     match group.route {
         Route::Quadratic => "quadratic".to_owned(),
         Route::Pencil(rows) => format!("pencil of {rows} rows"),
+        Route::Basis => "Gröbner basis".to_owned(),
         Route::Boxes(boxes) => format!("{boxes} boxes of angles"),
         Route::Gears(1) => "Gröbner basis of a pair of gears".to_owned(),
         Route::Gears(pairs) => format!("Gröbner basis of {pairs} pairs of gears"),
@@ -142,6 +143,47 @@ fn is_one(state: &State) -> bool {
     state.bodies.iter().all(|body| body.0 == state.bodies[0].0)
 }
 
+/// Why no assembly is missing.
+fn because(has: &dyn Fn(fn(&Route) -> bool) -> bool) -> String {
+    let mut parts = Vec::new();
+    if has(|route| matches!(route, Route::Pencil(_))) {
+        parts.push("every root of the exact closure polynomials is a certified assembly");
+    }
+    if has(|route| matches!(route, Route::Basis)) {
+        parts.push("Gröbner bases over the rationals count those of groups with multiple ones");
+    }
+    if has(|route| matches!(route, Route::Gears(_))) {
+        parts.push("Gröbner bases over the rationals count those of gears");
+    }
+    if has(|route| matches!(route, Route::Quadratic)) {
+        parts.push("dyads have two each");
+    }
+    parts.join(", ")
+}
+
+/// Whether a motion of the whole linkage is proved, and what is known of it.
+fn motion(family: &Family, found: &Assemblies) -> (bool, String) {
+    if family.kind != FamilyKind::Other {
+        let list = match &found.doubt {
+            Some(doubt) => format!("the isolated ones may not be all: {doubt}"),
+            None => "the isolated ones listed beside it are all that there are".to_owned(),
+        };
+        let what = if family.kind == FamilyKind::Dyad { "a dyad whose ends coincide" } else { "a body whose joints coincide" };
+        return (found.doubt.is_none(), format!("{what} turns freely; {list}"));
+    }
+    let real = if family.is_proved {
+        "a curve of real ones is among them: cuts at more places than there can be isolated ones have a simple real assembly each"
+    } else {
+        "the real one that is listed has others near it to first order"
+    };
+    let reason = format!(
+        "the assemblies of a group form a set of dimension {}, complex ones counted, by a Gröbner basis over the rationals; {real}; \
+         isolated assemblies beside it are not all looked for",
+        family.dimension
+    );
+    (family.is_proved, reason)
+}
+
 fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily], exact: bool) -> Verdict {
     let count =
         |of: &dyn Fn(&LinkageMode) -> bool| modes.iter().filter(|mode| of(mode)).map(|mode| mode.multiplicity).sum();
@@ -149,33 +191,23 @@ fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily]
     let counts: Vec<String> = found.groups.iter().map(|group| group.count.to_string()).collect();
     let counts = counts.join(" x ");
     let complete = found.doubt.is_none() && found.curves.is_empty();
-    let real_curves = found.curves.iter().filter(|(state, _)| state.real).count();
+    let moving: Vec<&Family> = found.curves.iter().filter(|family| family.state.real).collect();
     let rounded = Proof::Proved.of_rounded(!exact);
     let has = |wanted: fn(&Route) -> bool| found.groups.iter().any(|group| wanted(&group.route));
-    let (pencils, gears) = (has(|r| matches!(r, Route::Pencil(_))), has(|r| matches!(r, Route::Gears(_))));
+    let because = because(&has);
     let code = if found.only_real {
         Code::BoxesExhausted
-    } else if pencils || gears {
+    } else if has(|route| !matches!(route, Route::Quadratic)) {
         Code::ExactRootsMatched
     } else {
         Code::GeneralBoundMet
     };
-    let because = match (pencils, gears) {
-        (true, false) => "every root of the exact closure polynomials is a certified assembly",
-        (false, false) => "dyads have two each",
-        (false, true) => "Gröbner bases over the rationals count those of gears, dyads have two each",
-        (true, true) => {
-            "every root of the exact closure polynomials is a certified assembly, Gröbner bases over the rationals count those of gears"
-        }
-    };
-    let (status, proof, code, reason) = if real_curves > 0 {
-        let list = match &found.doubt {
-            Some(doubt) => format!("the isolated ones may not be all: {doubt}"),
-            None => "the isolated ones listed beside it are all that there are".to_owned(),
-        };
-        let proof = if found.doubt.is_none() { rounded } else { Proof::None };
-        let reason = format!("a dyad whose ends coincide turns freely; {list}");
-        (Status::SelfMotion, proof, Code::SelfMotion, reason)
+    let (status, proof, code, reason) = if let Some(first) = moving.iter().find(|family| is_one(&family.state)) {
+        let (is_proved, reason) = motion(first, found);
+        (Status::SelfMotion, if is_proved { rounded } else { Proof::None }, Code::SelfMotion, reason)
+    } else if !moving.is_empty() {
+        let reason = "not proved: a group moves by itself, and groups that stand on it were not followed along that motion";
+        (Status::Incomplete, Proof::None, Code::TooFew, reason.to_owned())
     } else if let Some(doubt) = &found.doubt {
         (Status::Incomplete, Proof::None, Code::TooFew, format!("not proved: {doubt}"))
     } else if !complete {
@@ -206,7 +238,7 @@ fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily]
         complex,
         real,
         at_infinity: 0,
-        self_motion: usize::from(!families.is_empty() || real_curves > 0),
+        self_motion: families.iter().filter(|family| family.sample.real).map(|family| family.dimension).max().unwrap_or(0),
         certified: modes.len(),
         reason,
     }

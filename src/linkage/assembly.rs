@@ -1,7 +1,9 @@
 //! All assemblies of a linkage: its groups solved one after the other, branch by branch.
 
-use super::boxes::{RealAssemblies, real_assemblies};
+use super::boxes::{MOST_OPEN, NONE_OPEN, RealAssemblies, real_assemblies};
 use super::equations::{Closure, Equations};
+use super::exact_group::{Decided, decided};
+use super::fibres::by_fibres;
 use super::geared_groups::geared_groups;
 use super::gears::{geared, teeth};
 use super::general::{general, least_rows};
@@ -9,10 +11,12 @@ use super::groups::{Group, Groups, MOST_CLUSTERS, MOST_IN_BOXES, Merged};
 use super::isotropic::{Isotropic, Value};
 use super::krawczyk::{Proved, conjugate};
 use super::quadratic::{Root, Solved, one_cycle};
+use super::real_motion::Moving;
 use super::state::{Number, Place, State, place_of, place_within};
 use crate::algebra::ring::Ring;
 use crate::error::{Error, Result};
-use crate::kinematics::linkage::{Given, Linkage, Pair};
+use crate::kinematics::linkage::{Gaussian, Given, Linkage, Pair};
+use rug::Rational;
 use std::sync::atomic::AtomicBool;
 
 /// Towers of more generators are not built: the work doubles with each of them.
@@ -48,6 +52,8 @@ pub enum Route {
     Quadratic,
     /// A matrix with this many rows.
     Pencil(usize),
+    /// A Gröbner basis of the cycles.
+    Basis,
     /// The equations of this many pairs of gears and of the cycles.
     Gears(usize),
     /// This many boxes of angles: real assemblies only.
@@ -67,13 +73,39 @@ pub struct Solution {
     pub route: Route,
 }
 
+/// A kind of families.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FamilyKind {
+    /// A dyad whose ends coincide.
+    Dyad,
+    /// Bodies whose joints coincide.
+    Spin,
+    /// Another one, beside which there may be isolated assemblies and more families.
+    Other,
+}
+
+/// Assemblies of a group that are infinitely many.
+#[derive(Clone, Debug)]
+pub struct Family {
+    /// One of them.
+    pub state: State,
+    /// The joints of the group that move.
+    pub joints: Vec<usize>,
+    /// The dimension of their set, complex ones included.
+    pub dimension: usize,
+    /// What it is.
+    pub kind: FamilyKind,
+    /// Whether real ones are proved to form a curve, if the state is real.
+    pub is_proved: bool,
+}
+
 /// Assemblies of all bodies.
 #[derive(Clone, Debug)]
 pub struct Assemblies {
     /// The isolated ones.
     pub modes: Vec<State>,
-    /// Points of curves of assemblies, with the joints of the group that moves.
-    pub curves: Vec<(State, Vec<usize>)>,
+    /// Assemblies that are not isolated.
+    pub curves: Vec<Family>,
     /// The groups in the order in which they were solved.
     pub groups: Vec<Solution>,
     /// Why the list may not be complete.
@@ -230,6 +262,27 @@ pub fn held_and_free(linkage: &Linkage, given: &[Given]) -> Result<(State, Vec<u
     Ok((started(linkage, given, place_of)?, joints.into_iter().map(|(joint, _)| joint).collect()))
 }
 
+/// The groups of a linkage with these inputs and a joint held, by bodies and joints; `None` where there are no such groups.
+#[must_use]
+pub fn parts_when_still(linkage: &Linkage, held: &[Given], joint: usize) -> Option<Vec<Solution>> {
+    let mut inputs = held.to_vec();
+    let one = Gaussian { re: Rational::from(1), im: Rational::new() };
+    inputs.push(Given::Turn { joint, turn: one, within: None, line: 0 });
+    let list = groups_of(linkage, &inputs).ok()?.list;
+    let (mut merged, _) = glued(linkage, &inputs).ok()?;
+    let mut parts = Vec::new();
+    for group in &list {
+        let roots: Vec<usize> = group.clusters.iter().map(|body| merged.root(*body)).collect();
+        let mut of = |root: &usize| (0..linkage.bodies.len()).filter(|body| merged.root(*body) == *root).collect();
+        let bodies = roots.iter().map(&mut of).collect();
+        parts.push(Solution { bodies, joints: group.joints.clone(), count: 0, route: Route::Quadratic });
+        for pair in roots.windows(2) {
+            merged.merge(pair[0], pair[1]);
+        }
+    }
+    Some(parts)
+}
+
 /// The bodies that the inputs glue.
 fn started(linkage: &Linkage, given: &[Given], place: Placing) -> Result<State> {
     let mut start = State::new(linkage.bodies.len(), SHALLOW);
@@ -275,12 +328,13 @@ fn attempt(
             let Some(closure) = Closure::new(linkage, group, state) else {
                 return Err(Error::Unsupported("a group with gears".to_owned()));
             };
+            let at = Branch { linkage, closure: &closure, group, state };
             if group.gears.is_empty() {
-                branch(&closure, group, state, &mut solution, &mut next, &mut found, asked);
+                branch(at, &mut solution, &mut next, &mut found, asked);
             } else {
                 solution.route = Route::Gears(group.gears.len());
                 let solved = geared(linkage, &closure, group, state);
-                add(solved, &closure, group, state, &mut solution, &mut next, &mut found);
+                add(solved, at, &mut solution, &mut next, &mut found);
             }
         }
         found.groups.push(solution);
@@ -293,23 +347,31 @@ fn attempt(
     Ok(found)
 }
 
+/// A group in one branch of the earlier ones.
+#[derive(Clone, Copy)]
+struct Branch<'a> {
+    linkage: &'a Linkage,
+    closure: &'a Closure,
+    group: &'a Group,
+    state: &'a State,
+}
+
 /// Solves a group in one branch.
 fn branch(
-    closure: &Closure,
-    group: &Group,
-    state: &State,
+    at: Branch<'_>,
     solution: &mut Solution,
     next: &mut Vec<State>,
     found: &mut Assemblies,
     asked: Asked<'_>,
 ) {
+    let Branch { closure, group, state, .. } = at;
     let equations = &closure.equations;
     if equations.loops() == 1 {
-        add(one_cycle(equations, &state.top), closure, group, state, solution, next, found);
+        add(one_cycle(equations, &state.top), at, solution, next, found);
         return;
     }
     if equations.slides.is_empty() && !has_pencil(equations, asked.complex) {
-        by_boxes(closure, group, state, solution, next, found, asked);
+        by_boxes(at, solution, next, found, asked);
         return;
     }
     let general = general(equations);
@@ -317,10 +379,18 @@ fn branch(
     let proved: usize = general.solutions.len();
     solution.count = solution.count.max(general.most.unwrap_or(proved));
     let is_complete = general.most == Some(proved);
+    let over_multiple_roots = || {
+        let found = general.choices.iter().find_map(|choice| by_fibres(equations, choice, &general.solutions));
+        found.map(Decided::Finite)
+    };
+    if !is_complete && let Some(decided) = over_multiple_roots().or_else(|| decided(equations)) {
+        by_basis(decided, &general.solutions, at, solution, next, found);
+        return;
+    }
     // What leaves the complex list in doubt, as multiple roots do, need not be near a real assembly.
-    let boxes = if is_complete || !state.real { None } else { real_assemblies(equations, asked.stop) };
+    let boxes = if is_complete || !state.real { None } else { real_assemblies(equations, NONE_OPEN, asked.stop) };
     if let Some(real) = boxes.filter(|real| real.doubt.is_none()) {
-        add_boxes(real, closure, group, state, solution, next, found);
+        add_boxes(real, at, solution, next, found);
         let complex = general.solutions.iter().filter(|one| one.real == Some(false));
         next.extend(complex.map(|one| assembled(closure, state, one, false)));
         return;
@@ -335,6 +405,57 @@ fn branch(
             continue;
         };
         next.push(assembled(closure, state, proved, real));
+    }
+}
+
+/// Adds what a Gröbner basis says of a group in one branch. `isolated` are the assemblies that are known by themselves.
+fn by_basis(
+    decided: Decided,
+    isolated: &[Proved],
+    at: Branch<'_>,
+    solution: &mut Solution,
+    next: &mut Vec<State>,
+    found: &mut Assemblies,
+) {
+    let Branch { linkage, closure, group, state } = at;
+    solution.route = Route::Basis;
+    match decided {
+        Decided::Finite(roots) => {
+            let (roots, real): (Vec<Root>, Vec<bool>) = roots.into_iter().unzip();
+            add_roots(&roots, real.into_iter().map(Some), at, solution, next, found);
+        }
+        Decided::Spinning(roots, spinning) => {
+            let size = closure.equations.classes + closure.equations.slides.len();
+            let unit = |class: &usize| (0..size).map(|k| f64::from(u8::from(k == *class))).collect();
+            let rates: Vec<Vec<f64>> = spinning.iter().map(unit).collect();
+            for (root, real) in roots {
+                let mut own = closure.assembled(state, &root.turns, &root.shifts);
+                own.real = state.real && real;
+                let joints = closure.moving_joints(linkage, group, state, &rates);
+                let (dimension, kind) = (spinning.len(), FamilyKind::Spin);
+                found.curves.push(Family { state: own, joints, dimension, kind, is_proved: true });
+            }
+        }
+        Decided::Moving(moving) => {
+            solution.count = solution.count.max(isolated.len());
+            let known = isolated.iter().filter_map(|one| Some((one, one.real?)));
+            next.extend(known.map(|(one, real)| assembled(closure, state, one, state.real && real)));
+            let Moving { dimension, sample, is_proved } = *moving;
+            let Some((root, rates)) = sample else {
+                let bodies = group.clusters.len();
+                found.doubt.get_or_insert_with(|| {
+                    format!(
+                        "the assemblies of a group of {bodies} bodies form a set of dimension {dimension}, complex ones counted, \
+                         by a Gröbner basis over the rationals; no real one that moves was found"
+                    )
+                });
+                return;
+            };
+            let mut own = closure.assembled(state, &root.turns, &root.shifts);
+            own.real = state.real;
+            let joints = closure.moving_joints(linkage, group, state, &rates);
+            found.curves.push(Family { state: own, joints, dimension, kind: FamilyKind::Other, is_proved });
+        }
     }
 }
 
@@ -355,21 +476,20 @@ fn has_pencil(equations: &Equations<Number>, complex: bool) -> bool {
 
 /// Adds the real assemblies that a group has in one branch, where no others are looked for.
 fn by_boxes(
-    closure: &Closure,
-    group: &Group,
-    state: &State,
+    at: Branch<'_>,
     solution: &mut Solution,
     next: &mut Vec<State>,
     found: &mut Assemblies,
     asked: Asked<'_>,
 ) {
+    let Branch { closure, group, state, .. } = at;
     // An assembly of the whole that is real is so in its parts.
     if !state.real {
         found.only_real = true;
         return;
     }
-    match real_assemblies(&closure.equations, asked.stop) {
-        Some(real) => add_boxes(real, closure, group, state, solution, next, found),
+    match real_assemblies(&closure.equations, MOST_OPEN, asked.stop) {
+        Some(real) => add_boxes(real, at, solution, next, found),
         None => {
             found.doubt.get_or_insert(format!("a group of {} bodies is too large", group.clusters.len()));
         }
@@ -379,13 +499,12 @@ fn by_boxes(
 /// Adds the assemblies that boxes have led to in one branch.
 fn add_boxes(
     real: RealAssemblies,
-    closure: &Closure,
-    group: &Group,
-    state: &State,
+    at: Branch<'_>,
     solution: &mut Solution,
     next: &mut Vec<State>,
     found: &mut Assemblies,
 ) {
+    let Branch { closure, group, state, .. } = at;
     found.only_real = true;
     let before = if let Route::Boxes(boxes) = solution.route { boxes } else { 0 };
     solution.route = Route::Boxes(before + real.boxes);
@@ -399,13 +518,12 @@ fn add_boxes(
 /// Adds the assemblies that a group has in one branch.
 fn add(
     solved: Solved,
-    closure: &Closure,
-    group: &Group,
-    state: &State,
+    at: Branch<'_>,
     solution: &mut Solution,
     next: &mut Vec<State>,
     found: &mut Assemblies,
 ) {
+    let Branch { closure, group, state, .. } = at;
     match solved {
         Solved::Undecided(reason) => {
             found.doubt.get_or_insert(reason);
@@ -413,33 +531,47 @@ fn add(
         Solved::Curve(roots) => {
             for root in &roots {
                 let state = closure.assembled(state, &root.turns, &root.shifts);
-                found.curves.push((state, group.joints.clone()));
+                let joints = group.joints.clone();
+                found.curves.push(Family { state, joints, dimension: 1, kind: FamilyKind::Dyad, is_proved: true });
             }
         }
         Solved::Roots(roots) => {
-            solution.count = solution.count.max(roots.iter().map(|root| root.multiplicity).sum());
             let real = realness(&roots);
             if state.real && real.iter().all(|real| *real == Some(false)) {
                 let gap = dyad_gap(&closure.equations);
                 found.gap = [found.gap, gap].into_iter().flatten().reduce(f64::min);
             }
-            for (root, real) in roots.iter().zip(real) {
-                let Some(real) = (if state.real { real } else { Some(false) }) else {
-                    found.doubt.get_or_insert_with(|| UNDECIDED.to_owned());
-                    continue;
-                };
-                let mut next_state = closure.assembled(state, &root.turns, &root.shifts);
-                next_state.real = real;
-                next_state.multiplicity *= root.multiplicity;
-                // The number whose tower is the highest holds all others.
-                for number in root.turns.iter().chain(&root.shifts) {
-                    if let Some(exact) = number.z.exact.as_ref() {
-                        next_state.top.number = next_state.top.number.lifted(exact);
-                    }
-                }
-                next.push(next_state);
+            add_roots(&roots, real.into_iter(), at, solution, next, found);
+        }
+    }
+}
+
+/// Adds the roots of a group in one branch; `real` says of each whether it is real where the branch is.
+fn add_roots(
+    roots: &[Root],
+    real: impl Iterator<Item = Option<bool>>,
+    at: Branch<'_>,
+    solution: &mut Solution,
+    next: &mut Vec<State>,
+    found: &mut Assemblies,
+) {
+    let Branch { closure, state, .. } = at;
+    solution.count = solution.count.max(roots.iter().map(|root| root.multiplicity).sum());
+    for (root, real) in roots.iter().zip(real) {
+        let Some(real) = (if state.real { real } else { Some(false) }) else {
+            found.doubt.get_or_insert_with(|| UNDECIDED.to_owned());
+            continue;
+        };
+        let mut next_state = closure.assembled(state, &root.turns, &root.shifts);
+        next_state.real = real;
+        next_state.multiplicity *= root.multiplicity;
+        // The number whose tower is the highest holds all others.
+        for number in root.turns.iter().chain(&root.shifts) {
+            if let Some(exact) = number.z.exact.as_ref() {
+                next_state.top.number = next_state.top.number.lifted(exact);
             }
         }
+        next.push(next_state);
     }
 }
 

@@ -194,6 +194,23 @@ impl<R: Half> Closure<R> {
         Some((node.class, node.turn.mul(&place.turn)))
     }
 
+    /// The joints of a group that move where classes and slides have these rates, in any of several motions. What is below a
+    /// millionth stands for rest.
+    #[must_use]
+    pub fn moving_joints(&self, linkage: &Linkage, group: &Group, state: &State<R>, rates: &[Vec<f64>]) -> Vec<usize> {
+        let classes = self.equations.classes;
+        let moves = |joint: &usize| {
+            let of = linkage.joints[*joint].of.map(|body| self.class_of(state, body).map(|(class, _)| class));
+            let slide = self.equations.slides.iter().position(|slide| slide.joint == *joint);
+            rates.iter().any(|rate| match (slide, of) {
+                (Some(slide), _) => rate[classes + slide].abs() > 1e-6,
+                (None, [Some(a), Some(b)]) => (rate[a] - rate[b]).abs() > 1e-6,
+                _ => false,
+            })
+        };
+        group.joints.iter().copied().filter(moves).collect()
+    }
+
     /// The equations with one cycle more: the place of a point of a body in coordinates of the body `base`, whose class
     /// rests so that `base` has the rotation 1. Less a point of the plane, it is zero where the point of the body is there.
     #[must_use]

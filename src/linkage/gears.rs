@@ -7,25 +7,21 @@
 //! slides: its Gröbner basis counts the assemblies.
 
 use super::equations::{Closure, Equations};
+use super::exact_group::solutions;
 use super::groups::Group;
-use super::isotropic::{Isotropic, Value};
-use super::points::{EFFORT, Points};
+use super::isotropic::Isotropic;
+use super::points::EFFORT;
 use super::quadratic::{Root, Solved};
-use super::real_system::{Form, circles, constant, cycle_forms, turned, unknowns};
+use super::real_system::{Form, RealSystem, circles, constant, cycle_forms, turned, unknowns, way};
 use super::state::{Number, State, number};
-use crate::algebra::disc::Disc;
-use crate::algebra::groebner::{Basis, Equation, MOST_VARIABLES};
+use crate::algebra::groebner::{Basis, MOST_VARIABLES};
 use crate::algebra::ring::Ring;
 use crate::error::{Error, Result};
 use crate::kinematics::linkage::{Gaussian, Linkage, Pair};
-use rug::{Float, Rational};
+use rug::Rational;
 
 /// Largest sum of the numbers of teeth in lowest terms: monomials of a basis have degrees up to 127.
 pub const MOST_TEETH: i32 = 40;
-/// Bits in which solutions are computed, and more where two of them are not told apart.
-const BITS: [u32; 2] = [640, 5120];
-/// Radius below which a solution is exact enough for the groups that stand on it.
-const WANTED: f64 = 1e-40;
 
 /// A pair of gears between classes: `sum of exponents[k] times the angle of class k` is the angle of `factor`.
 #[derive(Clone, Debug)]
@@ -88,12 +84,15 @@ pub fn geared(linkage: &Linkage, closure: &Closure, group: &Group, state: &State
         return Solved::Undecided(format!("a group with gears has more than {MOST_VARIABLES} unknowns"));
     }
     let system = system(&cycles, &meshes, &factors);
-    let Some(basis) = Basis::of(unknowns, &system, EFFORT) else {
+    let Some(basis) = Basis::of(unknowns, &system.equations, EFFORT) else {
         return Solved::Undecided("the Gröbner basis of a group with gears takes more work than is allowed".to_owned());
     };
     match basis.dimension() {
         None => Solved::Roots(Vec::new()),
-        Some(0) => solutions(equations, unknowns, &basis),
+        Some(0) => match solutions(&system, &basis) {
+            Some(list) => Solved::Roots(list.into_iter().map(|(root, _)| root).collect()),
+            None => Solved::Undecided("the assemblies of a group with gears were not told apart".to_owned()),
+        },
         Some(dimension) => Solved::Undecided(format!(
             "the assemblies of a group with gears form a set of dimension {dimension}, complex ones counted"
         )),
@@ -113,8 +112,8 @@ fn wheel(equations: &Equations<Number>, meshes: &[Mesh]) -> Option<Number> {
 }
 
 /// The polynomials that vanish: both parts of every cycle and every pair of gears, and the circles of the classes.
-fn system(cycles: &Equations<Isotropic<Gaussian>>, meshes: &[Mesh], factors: &[Gaussian]) -> Vec<Equation> {
-    let mut list: Vec<Equation> = cycle_forms(cycles).into_iter().flat_map(|sum| [sum.re, sum.im]).collect();
+fn system(cycles: &Equations<Isotropic<Gaussian>>, meshes: &[Mesh], factors: &[Gaussian]) -> RealSystem {
+    let mut list: Vec<_> = cycle_forms(cycles).into_iter().flat_map(|sum| [sum.re, sum.im]).collect();
     for (mesh, factor) in meshes.iter().zip(factors) {
         let side = |sign: i32| {
             let terms = mesh.exponents.iter().enumerate().filter(|(_, exponent)| **exponent * sign > 0);
@@ -125,48 +124,12 @@ fn system(cycles: &Equations<Isotropic<Gaussian>>, meshes: &[Mesh], factors: &[G
     }
     list.extend(circles(cycles.classes));
     list.retain(|equation| !equation.is_zero());
-    list
-}
-
-/// All solutions of a finite set.
-fn solutions(equations: &Equations<Number>, unknowns: usize, basis: &Basis) -> Solved {
-    let Some(points) = Points::of(unknowns, basis) else {
-        return Solved::Undecided("the assemblies of a group with gears were not told apart".to_owned());
-    };
-    let mut list = Vec::new();
-    for (root, multiplicity) in &points.list {
-        let exact = points.rational(root).map(|values| exactly(equations, &values));
-        let found = exact.or_else(|| {
-            let is_narrow = |values: &Vec<Disc>| values.iter().all(|value| value.radius().to_f64() < WANTED);
-            let values = BITS.iter().find_map(|bits| points.values(root, *bits).filter(is_narrow));
-            values.map(|values| within(equations, &values))
-        });
-        let Some((turns, shifts)) = found else {
-            return Solved::Undecided("an assembly of a group with gears was not isolated".to_owned());
-        };
-        list.push(Root { turns, shifts, multiplicity: *multiplicity });
+    let ways = (0..cycles.slides.len()).map(|slide| way(cycles.classes, slide).re);
+    RealSystem {
+        unknowns: unknowns(cycles),
+        turns: (0..cycles.classes).map(|class| turned(class, 1)).collect(),
+        shifts: ways.collect(),
+        equations: list,
+        spinning: Vec::new(),
     }
-    Solved::Roots(list)
-}
-
-/// Rotations of the classes and slides from the values of the unknowns.
-type Values = (Vec<Number>, Vec<Number>);
-
-fn exactly(equations: &Equations<Number>, values: &[Rational]) -> Values {
-    let mut turns = vec![Number::one()];
-    let (circles, slides) = values.split_at(2 * (equations.classes - 1));
-    turns.extend(circles.chunks(2).map(|at| number(&Gaussian { re: at[0].clone(), im: at[1].clone() })));
-    (turns, slides.iter().map(super::state::real).collect())
-}
-
-fn within(equations: &Equations<Number>, values: &[Disc]) -> Values {
-    let (circles, slides) = values.split_at(2 * (equations.classes - 1));
-    let mut turns = vec![Number::one()];
-    for at in circles.chunks(2) {
-        let i = Disc::point(Float::with_val(64, 0), Float::with_val(64, 1));
-        let turned = at[1].mul(&i);
-        turns.push(Isotropic { z: Value::within(at[0].add(&turned)), w: Value::within(at[0].sub(&turned)) });
-    }
-    let slide = |at: &Disc| Isotropic { z: Value::within(at.clone()), w: Value::within(at.clone()) };
-    (turns, slides.iter().map(slide).collect())
 }

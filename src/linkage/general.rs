@@ -2,13 +2,14 @@
 //! pencil the others, and every solution is proved by itself.
 
 use super::equations::Equations;
-use super::isotropic::Isotropic;
+use super::isotropic::{BITS, Isotropic, disc_of, middle};
 use super::krawczyk::{Proved, prove};
 use super::pencil::{Parameter, Pencil};
 use super::polynomial::{ClosurePolynomial, closure_polynomial, turned};
 use super::quadratic::Root;
 use super::state::Number;
 use crate::algebra::determinant::determinant;
+use crate::algebra::disc::Disc;
 use crate::algebra::modp::ModP;
 use crate::algebra::ring::{Field, Ring};
 use crate::algebra::univariate::Univariate;
@@ -17,6 +18,7 @@ use crate::kinematics::linkage::Gaussian;
 use crate::solve::hessenberg::Hessenberg;
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex;
+use rug::{Float, Rational};
 
 /// Rotations of the hidden class tried to keep the half turn from being a root.
 const TURNS: u32 = 8;
@@ -36,21 +38,52 @@ pub struct Found {
     pub size: usize,
     /// Why the list may not be complete.
     pub doubt: Option<String>,
+    /// The choices that were made.
+    pub choices: Vec<Choice>,
 }
 
 impl Found {
     fn nothing(doubt: &str) -> Self {
-        Self { solutions: Vec::new(), most: None, size: 0, doubt: Some(doubt.to_owned()) }
+        Self { solutions: Vec::new(), most: None, size: 0, doubt: Some(doubt.to_owned()), choices: Vec::new() }
     }
 }
 
 /// A choice of classes with its matrix and polynomial.
-struct Choice {
-    rest: usize,
-    hidden: usize,
+#[derive(Clone, Debug)]
+pub struct Choice {
+    /// The class at rest.
+    pub rest: usize,
+    /// The class whose rotation is hidden.
+    pub hidden: usize,
     pencil: Pencil<Gaussian>,
-    found: ClosurePolynomial,
+    /// The closure polynomial in the half tangent of the hidden class, less a turn.
+    pub found: ClosurePolynomial,
     turn: Isotropic<Gaussian>,
+}
+
+impl Choice {
+    /// The hidden rotation at a rational root of the closure polynomial.
+    #[must_use]
+    pub fn rotation(&self, t: &Rational) -> Gaussian {
+        let square = Rational::from(t * t);
+        let length = Rational::from(&square + 1);
+        let own = Gaussian { re: Rational::from(1 - square) / &length, im: Rational::from(t * 2_u32) / &length };
+        own.mul(&self.turn.z)
+    }
+
+    /// The hidden rotation at a root of the closure polynomial.
+    fn hidden_at(&self, t: &Disc) -> Option<Disc> {
+        let turned = t.mul(&Disc::point(Float::new(BITS), Float::with_val(BITS, 1)));
+        let one = Disc::of(&Rational::from(1), BITS);
+        Some(one.add(&turned).mul(&one.sub(&turned).inverse()?).mul(&disc_of(&self.turn.z)))
+    }
+
+    /// Whether a vector of the kernel tells all rotations: every class is the difference of two sets.
+    #[must_use]
+    pub fn tells_all_rotations(&self) -> bool {
+        let has = |set: u32| self.pencil.sets.binary_search(&set).is_ok();
+        (0..self.pencil.classes.len()).all(|j| self.pencil.sets.iter().any(|set| has(set ^ (1 << j))))
+    }
 }
 
 /// Solves a group.
@@ -71,6 +104,7 @@ pub fn general(equations: &Equations<Number>) -> Found {
             found.doubt = None;
             break;
         }
+        found.choices.push(choice);
     }
     found
 }
@@ -95,16 +129,20 @@ fn extend(
     };
     let mut led = 0;
     for t in roots {
-        let i = Complex::new(0.0, 1.0);
-        let x = (1.0 + i * t) / (1.0 - i * t) * Complex::new(choice.turn.z.re.to_f64(), choice.turn.z.im.to_f64());
-        let proved =
-            start(choice, approximate, x).and_then(|(turns, shifts)| prove(equations, choice.rest, &turns, &shifts));
-        if let Some(proved) = proved {
-            led += 1;
-            if found.solutions.iter().all(|known| differ(known, &proved, choice.rest)) {
-                found.solutions.push(proved);
-            }
-        }
+        let x = choice.hidden_at(&t);
+        let Some(x) = x else { continue };
+        let proved = |kernel: Option<DVector<Complex<f64>>>| {
+            let (turns, shifts) = start(choice, approximate, middle(&x), &kernel?)?;
+            prove(equations, choice.rest, &turns, &shifts)
+        };
+        let is_new = |proved: &Proved, found: &Found| found.solutions.iter().all(|known| differ(known, proved, choice.rest));
+        let first = proved(approximate_kernel(choice, middle(&x)));
+        led += usize::from(first.is_some());
+        // Beside a double root f64 has too few digits, and may lead twice to the same assembly.
+        let fresh = first.filter(|one| is_new(one, found)).or_else(|| {
+            proved(precise_kernel(choice, &x)).filter(|one| is_new(one, found))
+        });
+        found.solutions.extend(fresh);
     }
     let distinct = square_free.degree().unwrap_or(0);
     let multiple = degree - distinct;
@@ -293,9 +331,9 @@ fn choice(exact: &Equations<Isotropic<Gaussian>>, rest: usize, hidden: usize) ->
 }
 
 /// Returns approximations of all roots; `None` where no precision separates them.
-fn hidden_rotations(square_free: &Univariate<rug::Integer>) -> Option<Vec<Complex<f64>>> {
-    fn middles<const BITS: u32>(roots: &[Isolated<BITS>]) -> Vec<Complex<f64>> {
-        roots.iter().map(|root| Complex::new(root.ball.re().to_f64(), root.ball.im().to_f64())).collect()
+fn hidden_rotations(square_free: &Univariate<rug::Integer>) -> Option<Vec<Disc>> {
+    fn middles<const BITS: u32>(roots: &[Isolated<BITS>]) -> Vec<Disc> {
+        roots.iter().map(|root| Disc::point(root.ball.re().clone(), root.ball.im().clone())).collect()
     }
     let short = isolated_roots::<512>(square_free).map(|roots| middles(&roots));
     short.or_else(|| isolated_roots::<1024>(square_free).map(|roots| middles(&roots)))
@@ -304,8 +342,8 @@ fn hidden_rotations(square_free: &Univariate<rug::Integer>) -> Option<Vec<Comple
 /// Approximate rotations of all classes and slides.
 type Start = (Vec<Complex<f64>>, Vec<Complex<f64>>);
 
-/// The rotations of all classes and the slides from the kernel of the matrix at a value of the hidden rotation.
-fn start(choice: &Choice, equations: &Equations<Isotropic<Complex<f64>>>, x: Complex<f64>) -> Option<Start> {
+/// A vector that the matrix at a value of the hidden rotation nearly takes to zero, in f64.
+fn approximate_kernel(choice: &Choice, x: Complex<f64>) -> Option<DVector<Complex<f64>>> {
     let size = choice.pencil.sets.len();
     let narrow = |z: &Gaussian| Complex::new(z.re.to_f64(), z.im.to_f64());
     let mut matrix = DMatrix::from_element(size, size, Complex::new(0.0, 0.0));
@@ -319,7 +357,59 @@ fn start(choice: &Choice, equations: &Equations<Isotropic<Complex<f64>>>, x: Com
             matrix[(k, j)] /= largest;
         }
     }
-    let kernel = kernel(matrix)?;
+    kernel(matrix)
+}
+
+/// As [`approximate_kernel`], by elimination with all digits of the hidden rotation.
+fn precise_kernel(choice: &Choice, x: &Disc) -> Option<DVector<Complex<f64>>> {
+    let size = choice.pencil.sets.len();
+    let back = x.inverse()?;
+    let mut matrix = vec![vec![Disc::zero(); size]; size];
+    for (k, row) in choice.pencil.rows.iter().enumerate() {
+        let [by, inverse] = row.by[0].each_ref().map(disc_of);
+        matrix[k][k] = disc_of(&row.constant).add(&by.mul(x)).add(&inverse.mul(&back));
+        for (column, factor) in &row.others {
+            matrix[k][*column] = disc_of(factor);
+        }
+    }
+    let mut columns: Vec<usize> = (0..size).collect();
+    for step in 0..size.checked_sub(1)? {
+        let entries = (step..size).flat_map(|i| (step..size).map(move |j| (i, j)));
+        let weight = |(i, j): &(usize, usize)| middle(&matrix[*i][*j]).norm();
+        let (row, column) = entries.max_by(|a, b| weight(a).total_cmp(&weight(b)))?;
+        matrix.swap(step, row);
+        matrix.iter_mut().for_each(|row| row.swap(step, column));
+        columns.swap(step, column);
+        let inverse = matrix[step][step].inverse()?;
+        let pivot: Vec<Disc> = matrix[step].iter().map(|entry| entry.mul(&inverse)).collect();
+        for row in matrix.iter_mut().skip(step + 1).filter(|row| !row[step].is_zero()) {
+            let factor = row[step].neg();
+            for (entry, above) in row.iter_mut().zip(&pivot).skip(step).filter(|(_, above)| !above.is_zero()) {
+                *entry = entry.add(&factor.mul(above));
+            }
+        }
+        matrix[step] = pivot;
+    }
+    // The last row is zero but for rounding.
+    let mut solved = vec![Disc::one(); size];
+    for k in (0..size - 1).rev() {
+        solved[k] = (k + 1..size).fold(Disc::zero(), |sum, j| sum.sub(&matrix[k][j].mul(&solved[j])));
+    }
+    let mut vector = DVector::from_element(size, Complex::new(0.0, 0.0));
+    for (place, value) in columns.into_iter().zip(&solved) {
+        vector[place] = middle(value);
+    }
+    vector.iter().all(|z| z.re.is_finite() && z.im.is_finite()).then_some(vector)
+}
+
+/// The rotations of all classes and the slides from the kernel of the matrix at a value of the hidden rotation.
+fn start(
+    choice: &Choice,
+    equations: &Equations<Isotropic<Complex<f64>>>,
+    x: Complex<f64>,
+    kernel: &DVector<Complex<f64>>,
+) -> Option<Start> {
+    let size = choice.pencil.sets.len();
     let mut turns = vec![Complex::new(1.0, 0.0); equations.classes];
     turns[choice.hidden] = x;
     for (j, class) in choice.pencil.classes.iter().enumerate() {

@@ -11,12 +11,13 @@
 //! where the curve is smooth and above 0 elsewhere. Where it is not smooth and the multiplicity is 2, two branches cross and the input
 //! turns back on none of them: that is no limit position. With other multiple solutions nothing is counted.
 
-use super::assembly::held_and_free;
+use super::assembly::{Solution, held_and_free, parts_when_still};
 use super::equations::{Closure, Equations};
+use super::group_velocities::determinant_of;
 use super::groups::Group;
 use super::isotropic::Isotropic;
 use super::real_system::{Form, circles, constant, cycle_forms, turned, unknowns, way};
-use super::state::Number;
+use super::state::{Number, State};
 use crate::algebra::groebner::{Basis, Equation, FiniteRing, MOST_VARIABLES, Solutions};
 use crate::algebra::minors::{determinant_by_minors, maximal_minors};
 use crate::algebra::ring::Ring;
@@ -24,8 +25,11 @@ use crate::kinematics::linkage::{Gaussian, Given, Linkage, LinkageJoint};
 
 /// Products of words that a basis may take: a second.
 const EFFORT: u64 = 300_000_000;
-/// Most cycles: the determinant of twice as many rows, expanded by minors, doubles with every one of them.
-const MOST_CYCLES: usize = 4;
+/// Products of words that the basis of one group's limit positions may take: less than a second. That of a dyad of a
+/// six-bar takes a part of it.
+const GROUP_EFFORT: u64 = 40_000_000;
+/// Most cycles: bases of six-bars take seconds at most, those of eight-bars more work than is allowed.
+const MOST_CYCLES: usize = 2;
 
 /// Returns the number of complex limit positions of a joint while other values are held: proved where it is known, and `None` where
 /// the linkage has gears, takes too much work, moves with its input held, or has limit positions that coincide.
@@ -43,7 +47,61 @@ pub fn complex_limits(linkage: &Linkage, held: &[Given], joint: usize) -> Option
         let [a, b] = linkage.joints[joint].of.map(|body| closure.class_of(&state, body).map(|(class, _)| class));
         Input::Turn(a?, b?)
     };
-    count(&closure.equations, input)
+    if closure.equations.loops() > MOST_CYCLES {
+        return None;
+    }
+    let parts = parts_when_still(linkage, held, joint).unwrap_or_default();
+    if parts.len() < 2 {
+        return count(&closure.equations, input);
+    }
+    // Where limit positions coincide, the whole may still be decided.
+    by_groups(linkage, &parts, &state, &closure)?.or_else(|| count(&closure.equations, input))
+}
+
+/// The number by groups, `Some(None)` where limit positions coincide and where groups have slides; `None` where a basis takes too much
+/// work.
+///
+/// With the input at rest and velocities measured group by group, the matrix M is block-triangular, as a group stands on earlier ones
+/// only: det M is the product of the determinants of the groups, on all positions. A position where one of them alone is zero, and
+/// simply, is a simple solution of the whole.
+fn by_groups(linkage: &Linkage, parts: &[Solution], state: &State, closure: &Closure) -> Option<Option<usize>> {
+    let exact = closure.equations.exact()?;
+    let unknowns = unknowns(&exact);
+    if unknowns > MOST_VARIABLES {
+        return None;
+    }
+    let determinants: Option<Vec<Equation>> =
+        parts.iter().map(|part| determinant_of(linkage, part, state, closure)).collect();
+    // Those of groups with slides are not written down.
+    let Some(determinants) = determinants else { return Some(None) };
+    let mut system: Vec<Equation> = cycle_forms(&exact).into_iter().flat_map(|sum| [sum.re, sum.im]).collect();
+    system.extend(circles(exact.classes));
+    system.retain(|equation| !equation.is_zero());
+    let basis = |zero: &[&Equation]| {
+        let all: Vec<Equation> = system.iter().chain(zero.iter().copied()).cloned().collect();
+        Basis::of(unknowns, &all, GROUP_EFFORT)
+    };
+    let mut total = 0;
+    for (k, own) in determinants.iter().enumerate() {
+        let found: Basis = basis(&[own])?;
+        match found.dimension() {
+            None => continue,
+            Some(0) => {}
+            Some(_) => return Some(None),
+        }
+        let ring = FiniteRing::of(&found)?;
+        if ring.distinct() != ring.dimension() {
+            return Some(None);
+        }
+        for other in &determinants[..k] {
+            let both: Basis = basis(&[own, other])?;
+            if both.dimension().is_some() {
+                return Some(None);
+            }
+        }
+        total += ring.dimension();
+    }
+    Some(Some(total))
 }
 
 /// The variable that stands still.
@@ -58,7 +116,7 @@ enum Input {
 fn count(equations: &Equations<Number>, input: Input) -> Option<usize> {
     let exact = equations.exact()?;
     let unknowns = unknowns(&exact);
-    if unknowns > MOST_VARIABLES || exact.loops() > MOST_CYCLES {
+    if unknowns > MOST_VARIABLES {
         return None;
     }
     let columns = velocities(&exact);

@@ -4,7 +4,8 @@
 //! group is solved in every branch of the earlier ones: a group of one cycle by a quadratic equation ([`quadratic`]), others by
 //! Cramer's pencil ([`pencil`]), whose determinant is an exact polynomial ([`polynomial`]), and groups with gears by a Gröbner
 //! basis ([`gears`]). The list is called complete only if
-//! that polynomial has as many roots as there are certified solutions ([`krawczyk`]).
+//! that polynomial has as many roots as there are certified solutions ([`krawczyk`]), or if a Gröbner basis over the rationals says
+//! which assemblies there are ([`exact_group`]): those of groups with multiple assemblies and of groups that move.
 
 pub mod answer;
 pub mod assembly;
@@ -14,10 +15,13 @@ pub mod defects;
 pub mod dyads;
 pub mod dynamics;
 pub mod equations;
+mod exact_group;
+mod fibres;
 pub mod geared_groups;
 pub mod gears;
 pub mod general;
 pub mod grashof;
+mod group_velocities;
 pub mod groups;
 pub mod instant;
 pub mod isotropic;
@@ -32,6 +36,7 @@ pub mod polynomial;
 pub mod quadratic;
 pub mod rates;
 pub mod real_form;
+mod real_motion;
 mod real_system;
 pub mod space;
 pub mod sphere;

@@ -10,6 +10,11 @@ use rug::Rational;
 /// Products of words that a Gröbner basis may take: some seconds.
 pub(crate) const EFFORT: u64 = 2_000_000_000;
 
+/// Bits in which points are computed, and more where two of them are not told apart.
+const BITS: [u32; 3] = [640, 1280, 5120];
+/// Radius below which a point is exact enough for what stands on it.
+const WANTED: f64 = 1e-40;
+
 /// All points of a finite set.
 pub(crate) struct Points {
     /// Every unknown as the quotient of two polynomials in a separating form, numerator first.
@@ -42,6 +47,12 @@ impl Points {
             Some(ball.evaluate(numerator.coefficients()).mul(&inverse))
         };
         self.quotients.iter().map(value).collect()
+    }
+
+    /// Returns the unknowns at a point so exactly that groups can stand on it; `None` where that does not succeed.
+    pub fn narrow(&self, root: &Root) -> Option<Vec<Disc>> {
+        let is_narrow = |values: &Vec<Disc>| values.iter().all(|value| value.radius().to_f64() < WANTED);
+        BITS.iter().find_map(|bits| self.values(root, *bits).filter(is_narrow))
     }
 
     /// Returns the unknowns at a point of rational coordinates; `None` for another one.

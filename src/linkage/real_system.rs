@@ -5,7 +5,8 @@
 
 use super::equations::Equations;
 use super::isotropic::Isotropic;
-use crate::algebra::groebner::Equation;
+use crate::algebra::echelon::Echelon;
+use crate::algebra::groebner::{Equation, MOST_VARIABLES};
 use crate::algebra::ring::Ring;
 use crate::kinematics::linkage::Gaussian;
 use num_complex::Complex;
@@ -68,4 +69,161 @@ pub(super) fn circles(classes: usize) -> impl Iterator<Item = Equation> {
         let Form { re, im } = turned(class, 1);
         re.mul(&re).add(&im.mul(&im)).sub(&Equation::one())
     })
+}
+
+/// The cycles of a group as a system over the rationals. Cycles whose slides all stand in the class at rest are linear in cosines, sines
+/// and displacements; they are solved, and what they leave free are the unknowns of the system.
+#[derive(Clone, Debug)]
+pub(super) struct RealSystem {
+    /// Number of unknowns.
+    pub unknowns: usize,
+    /// The rotation of every class: cosine and sine are polynomials in the unknowns.
+    pub turns: Vec<Form>,
+    /// The displacement along every slide, in parts of the length of its direction.
+    pub shifts: Vec<Equation>,
+    /// The polynomials that vanish at the assemblies, and at no other values.
+    pub equations: Vec<Equation>,
+    /// Classes that are in no cycle: bodies whose joints coincide. They turn freely, and stand here as they are in the file.
+    pub spinning: Vec<usize>,
+}
+
+impl RealSystem {
+    /// Returns the system of a group of real data; `None` for data of a complex branch, and for more unknowns than a basis may have.
+    pub fn of(equations: &Equations<Isotropic<Gaussian>>) -> Option<Self> {
+        if !is_real(equations) {
+            return None;
+        }
+        let is_idle = |class: usize| equations.cycles.iter().all(|cycle| cycle[class].is_zero());
+        let held = || (0..equations.classes).find(|class| !is_idle(*class)).unwrap_or(0);
+        let rest = equations.slides.first().map_or_else(held, |slide| slide.class);
+        let is_spinning = |class: &usize| {
+            let slides = equations.slides.iter().any(|slide| slide.class == *class);
+            *class != rest && !slides && is_idle(*class)
+        };
+        let spinning: Vec<usize> = (0..equations.classes).filter(is_spinning).collect();
+        let still: Vec<usize> = spinning.iter().copied().chain([rest]).collect();
+        let columns = Columns::of(equations, &still);
+        let is_linear = |k: usize| columns.bent.iter().all(|q| equations.slides[*q].coefficients[k].is_zero());
+        let rows = (0..equations.loops()).filter(|k| is_linear(*k)).flat_map(|k| columns.rows(equations, rest, k));
+        let solved = Echelon::of(rows.collect(), columns.linear + 1);
+        let free: Vec<usize> = solved.free_columns().into_iter().filter(|column| *column < columns.linear).collect();
+        let unknowns = free.len() + columns.bent.len();
+        if unknowns > MOST_VARIABLES {
+            return None;
+        }
+        let values = solved_columns(&solved, columns.linear, &free);
+        let turn = |class: usize| match columns.turns[class] {
+            None => Form::one(),
+            Some(column) => Form { re: values[column].clone(), im: values[column + 1].clone() },
+        };
+        let shift = |q: usize| match columns.straight.iter().position(|own| *own == q) {
+            Some(column) => values[column].clone(),
+            None => {
+                let place = columns.bent.iter().position(|own| *own == q).unwrap_or(0);
+                Equation::variable(free.len() + place)
+            }
+        };
+        let mut system = Self {
+            unknowns,
+            turns: (0..equations.classes).map(turn).collect(),
+            shifts: (0..equations.slides.len()).map(shift).collect(),
+            equations: Vec::new(),
+            spinning,
+        };
+        if solved.pivots().contains(&columns.linear) {
+            // The linear equations contradict one another.
+            system.equations.push(Equation::one());
+        }
+        let bent = (0..equations.loops()).filter(|k| !is_linear(*k));
+        for sum in bent.map(|k| system.cycle(equations, k)).collect::<Vec<Form>>() {
+            system.equations.extend([sum.re, sum.im]);
+        }
+        for class in (0..equations.classes).filter(|class| !still.contains(class)) {
+            let Form { re, im } = &system.turns[class];
+            system.equations.push(re.mul(re).add(&im.mul(im)).sub(&Equation::one()));
+        }
+        system.equations.retain(|equation| !equation.is_zero());
+        Some(system)
+    }
+
+    /// The sum of a cycle.
+    fn cycle(&self, equations: &Equations<Isotropic<Gaussian>>, k: usize) -> Form {
+        let links = equations.cycles[k].iter().zip(&self.turns).map(|(c, turn)| constant(&c.z).mul(turn));
+        let slides = equations.slides.iter().zip(&self.shifts).map(|(slide, shift)| {
+            let way = Form { re: shift.clone(), im: Equation::zero() };
+            constant(&slide.coefficients[k].z).mul(&self.turns[slide.class]).mul(&way)
+        });
+        links.chain(slides).fold(Form::zero(), |sum, term| sum.add(&term))
+    }
+}
+
+/// Whether the second half of every number is the conjugate of the first.
+fn is_real(equations: &Equations<Isotropic<Gaussian>>) -> bool {
+    let slides = equations.slides.iter().flat_map(|slide| &slide.coefficients);
+    equations.cycles.iter().flatten().chain(slides).all(|number| *number == Isotropic::of(&number.z))
+}
+
+/// The columns of the linear equations: the slides of the class at rest, then cosine and sine of every other class, then the constant.
+struct Columns {
+    /// Slides of the class at rest.
+    straight: Vec<usize>,
+    /// Slides of classes that turn.
+    bent: Vec<usize>,
+    /// The column of the cosine of every class; none for classes that stand still.
+    turns: Vec<Option<usize>>,
+    /// Number of columns without that of the constant.
+    linear: usize,
+}
+
+impl Columns {
+    fn of<N>(equations: &Equations<N>, still: &[usize]) -> Self {
+        let (straight, bent): (Vec<usize>, Vec<usize>) =
+            (0..equations.slides.len()).partition(|q| still.contains(&equations.slides[*q].class));
+        let mut linear = straight.len();
+        let mut turns = vec![None; equations.classes];
+        for class in (0..equations.classes).filter(|class| !still.contains(class)) {
+            turns[class] = Some(linear);
+            linear += 2;
+        }
+        Self { straight, bent, turns, linear }
+    }
+
+    /// Real and imaginary part of a cycle without slides of turning classes.
+    fn rows(&self, equations: &Equations<Isotropic<Gaussian>>, rest: usize, k: usize) -> [Vec<Rational>; 2] {
+        let mut rows = [vec![Rational::new(); self.linear + 1], vec![Rational::new(); self.linear + 1]];
+        for (column, q) in self.straight.iter().enumerate() {
+            let u = &equations.slides[*q].coefficients[k].z;
+            rows[0][column] += &u.re;
+            rows[1][column] += &u.im;
+        }
+        for (number, column) in equations.cycles[k].iter().zip(&self.turns) {
+            let c = &number.z;
+            if let Some(column) = *column {
+                // (re + i im)(x + i y)
+                rows[0][column] += &c.re;
+                rows[0][column + 1] -= &c.im;
+                rows[1][column] += &c.im;
+                rows[1][column + 1] += &c.re;
+            }
+        }
+        let fixed = &equations.cycles[k][rest].z;
+        rows[0][self.linear] += &fixed.re;
+        rows[1][self.linear] += &fixed.im;
+        rows
+    }
+}
+
+/// Every column of solved linear equations in those that are left free, which become the first variables.
+fn solved_columns(solved: &Echelon<Rational>, linear: usize, free: &[usize]) -> Vec<Equation> {
+    let rational = |q: &Rational| Equation::from_rational(q).unwrap_or_else(Equation::zero);
+    let value = |column: usize| {
+        if let Some(variable) = free.iter().position(|own| *own == column) {
+            return Equation::variable(variable);
+        }
+        let Some(row) = solved.pivots().iter().position(|pivot| *pivot == column) else { return Equation::zero() };
+        let row = &solved.rows()[row];
+        let terms = free.iter().enumerate().map(|(variable, own)| Equation::variable(variable).mul(&rational(&row[*own])));
+        terms.fold(rational(&row[linear]), |sum, term| sum.add(&term)).neg()
+    };
+    (0..linear).map(value).collect()
 }

@@ -111,10 +111,12 @@ impl Joints<'_> {
             all.push(q);
             let ends = outside.get(k + 1).map(|next| [outside[k], *next]);
             // A joint goes no farther than a step.
-            let Some([one, other]) = ends.filter(|ends| ends.iter().all(|x| *x > 0.0 && *x < LONGEST)) else {
+            let way = |next: &Vec<f64>| next.iter().zip(&shape.points[k]).map(|(x, y)| (x - y).abs()).fold(LONGEST, f64::max);
+            let longest = shape.points.get(k + 1).map_or(LONGEST, way);
+            let Some([one, other]) = ends.filter(|ends| ends.iter().all(|x| *x > 0.0 && *x < longest)) else {
                 continue;
             };
-            if one + other > LONGEST || shape.dimension > 1 {
+            if one + other > longest || shape.dimension > 1 {
                 continue;
             }
             let value = |part: f64| between(k, part).map_or(f64::INFINITY, |q| self.outside(&q));

@@ -18,8 +18,14 @@ const MOST_STEPS: usize = 3000;
 const CRAWL: f64 = 1e-6;
 /// Cosine between the directions in which a curve passes a point twice.
 const SAME_WAY: f64 = 0.8;
-/// Chords of steps lie as near to their curve: 0.1 long, and bent by 0.2 over their length at most.
+/// Chords of steps lie as near to their curve.
 const SAG: f64 = 5e-3;
+/// Steps over the way that distances have gone, once that is above 1: a slide without end is straight far away, where short steps show
+/// nothing new.
+const FAR_STEP: f64 = 0.1;
+/// The way of a distance, in parts of the scale of the loop, after which a curve is not followed any more: it goes on without end,
+/// or nobody builds it.
+const FAR: f64 = 300.0;
 /// Two ways to the same point of a curve differ by less.
 const SAME: f64 = 1e-5;
 
@@ -84,6 +90,8 @@ pub fn step(curve: &impl Followed, here: &Place, longest: f64) -> Option<(Place,
     let [_, slope, bend] = curve.taylor(&here.point, &here.direction)?;
     let curvature = norm(&bend);
     let mut h = if curvature * longest > 0.2 { 0.2 / curvature } else { longest };
+    // The sag of a chord is a quarter of the bend times the square of the step: that of long steps is at most half of what is allowed.
+    h = h.min((2.0 * SAG / curvature).sqrt().max(LONGEST));
     while h > SHORTEST {
         let predicted = along(&here.point, &slope, &bend, h);
         if let Some((point, correction)) = curve.corrected(&predicted, &here.direction)
@@ -146,7 +154,11 @@ impl Trace {
             }
             run.points.push(next.point);
             here = next;
-            longest = (2.0 * h).min(LONGEST);
+            let way = (0..7).filter(|k| !turns[*k]).map(|k| (here.point[k] - start.point[k]).abs()).fold(0.0, f64::max);
+            if way > FAR {
+                break;
+            }
+            longest = (2.0 * h).min(LONGEST.max(FAR_STEP * way));
         }
         run
     }

@@ -20,6 +20,7 @@ mod laws;
 mod linkage_accuracy;
 mod linkage_derive;
 mod linkage_proof;
+mod linkage_singular;
 mod linkage_sweep;
 mod metamorphic;
 mod mjcf;

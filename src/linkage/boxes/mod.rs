@@ -25,7 +25,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Most boxes of one group: forty times what 21 links need, two minutes.
 const MOST_BOXES: usize = 1 << 17;
 /// Most open boxes: a double assembly or a curve of assemblies leaves more, and further ones decide nothing.
-const MOST_OPEN: usize = 1 << 9;
+pub const MOST_OPEN: usize = 1 << 9;
+/// No open box, where a list that is not complete is of no use.
+pub const NONE_OPEN: usize = 0;
 /// Boxes that are decided at a time: a multiple of the processors of any machine of today, so that the order does not depend on it.
 const TOGETHER: usize = 64;
 
@@ -40,9 +42,9 @@ pub struct RealAssemblies {
     pub doubt: Option<String>,
 }
 
-/// All real assemblies of a group, until the flag is raised; `None` for groups with slides.
+/// All real assemblies of a group, until the flag is raised or more boxes than this are open; `None` for groups with slides.
 #[must_use]
-pub fn real_assemblies(equations: &Equations<Number>, stop: &AtomicBool) -> Option<RealAssemblies> {
+pub fn real_assemblies(equations: &Equations<Number>, most_open: usize, stop: &AtomicBool) -> Option<RealAssemblies> {
     let search = Search::new(equations)?;
     let mut found = RealAssemblies { solutions: Vec::new(), boxes: 0, doubt: None };
     let mut open = 0;
@@ -53,7 +55,7 @@ pub fn real_assemblies(equations: &Equations<Number>, stop: &AtomicBool) -> Opti
             found.doubt = Some(format!("interrupted with {} boxes left", waiting.len()));
             break;
         }
-        if found.boxes >= MOST_BOXES || open > MOST_OPEN {
+        if found.boxes >= MOST_BOXES || open > most_open {
             break;
         }
         let together = waiting.split_off(waiting.len().saturating_sub(TOGETHER));

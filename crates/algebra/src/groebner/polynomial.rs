@@ -39,6 +39,12 @@ impl Equation {
         sum
     }
 
+    /// Returns the total degree; 0 of the polynomial 0.
+    #[must_use]
+    pub fn degree(&self) -> usize {
+        self.terms.keys().map(|monomial| monomial.degree()).max().unwrap_or(0)
+    }
+
     /// Returns one monomial.
     pub(super) fn monomial(monomial: Monomial) -> Self {
         Self { terms: BTreeMap::from([(monomial, Rational::from(1))]) }

@@ -1,0 +1,71 @@
+//! Planar structures at configurations where assemblies coincide, and some that move, against counts by other programs.
+//!
+//! `structures.json` holds random structures of five and seven links: the joints, each with its two bodies and its point in either of
+//! them. They were planted stretched on a line, on small grids and on two lines; some have one point moved by 1e-3 to 1e-13 afterwards.
+//! `count` and `dimension` are those of a Groebner basis of the closure equations modulo 2147483629 (Singular), `distinct` counts the points of
+//! its radical, and `real` the real solutions over the rationals (msolve).
+#![allow(clippy::unwrap_used)]
+
+use looproot::internal::catalogue::{Any, Format, LinkageFile, Options, any_from_text};
+use looproot::internal::kinematics::linkage::Accuracy;
+use looproot::internal::linkage::answer::{LinkageAnswer, solve};
+use looproot::internal::verdict::{Proof, Status};
+use serde_json::{Map, Value, json};
+
+fn file(joints: &[Value]) -> Box<LinkageFile> {
+    let mut bodies = Map::new();
+    let mut list = Vec::new();
+    for (k, joint) in joints.iter().enumerate() {
+        let name = format!("p{k}");
+        let of = [0, 1].map(|side| format!("b{}", joint[side]));
+        for (side, body) in of.iter().enumerate() {
+            let points = bodies.entry(body.clone()).or_insert_with(|| json!({}));
+            points[&name] = joint[2 + side].clone();
+        }
+        list.push(json!({ "name": name, "type": "R", "of": of }));
+    }
+    let mechanism = json!({ "kind": "linkage", "space": "plane", "ground": "b0", "joints": list, "bodies": bodies });
+    let text = json!({ "title": "structure", "mechanism": mechanism }).to_string();
+    match any_from_text(&text, "test.json", Format::Json, &Options::default()).unwrap() {
+        Any::Linkage(file) => file,
+        _ => panic!("a linkage"),
+    }
+}
+
+fn answer(joints: &[Value]) -> LinkageAnswer {
+    let file = file(joints);
+    solve(&file.linkage, &file.cases[0].given, Accuracy::Exact).unwrap()
+}
+
+#[test]
+fn multiple_assemblies_are_listed_once_with_their_multiplicity() {
+    let cases: Vec<Value> = serde_json::from_str(include_str!("linkage_singular/structures.json")).unwrap();
+    let (mut finite, mut moving) = (0, 0);
+    for case in &cases {
+        let joints = case["joints"].as_array().unwrap();
+        let answer = answer(joints);
+        let verdict = &answer.verdict;
+        let told = &verdict.reason;
+        let Some(count) = case["count"].as_u64() else {
+            // Complex assemblies move; whether real ones do is another question.
+            assert!(matches!(verdict.status, Status::SelfMotion | Status::Incomplete), "{told}");
+            assert!(told.contains("form a set of dimension"), "{told}");
+            if verdict.status == Status::SelfMotion {
+                moving += 1;
+                assert_eq!(Some(verdict.self_motion as u64), case["dimension"].as_u64(), "{told}");
+                assert!(answer.families.iter().all(|family| family.sample.residual < 1e-9));
+            }
+            continue;
+        };
+        finite += 1;
+        assert_eq!(verdict.proof, Proof::Proved, "{told}");
+        assert!(matches!(verdict.status, Status::Complete | Status::Unreachable), "{told}");
+        let real = answer.modes.iter().filter(|mode| mode.real);
+        assert_eq!(Some(real.count() as u64), case["real"].as_u64(), "{told}");
+        assert!(answer.modes.iter().all(|mode| mode.residual < 1e-9), "{told}");
+        if verdict.complex_complete {
+            assert_eq!((verdict.complex as u64, Some(answer.modes.len() as u64)), (count, case["distinct"].as_u64()), "{told}");
+        }
+    }
+    assert!(finite > 15 && moving > 0, "{finite} {moving}");
+}
