@@ -1,6 +1,6 @@
 //! All assemblies of a linkage: its groups solved one after the other, branch by branch.
 
-use super::boxes::{MOST_OPEN, NONE_OPEN, RealAssemblies, real_assemblies};
+use super::boxes::{LONG, RealAssemblies, SHORT, real_assemblies};
 use super::equations::{Closure, Equations};
 use super::exact_group::{Decided, decided};
 use super::fibres::by_fibres;
@@ -388,7 +388,7 @@ fn branch(
         return;
     }
     // What leaves the complex list in doubt, as multiple roots do, need not be near a real assembly.
-    let boxes = if is_complete || !state.real { None } else { real_assemblies(equations, NONE_OPEN, asked.stop) };
+    let boxes = if is_complete || !state.real { None } else { real_assemblies(equations, SHORT, asked.stop) };
     if let Some(real) = boxes.filter(|real| real.doubt.is_none()) {
         add_boxes(real, at, solution, next, found);
         let complex = general.solutions.iter().filter(|one| one.real == Some(false));
@@ -488,7 +488,7 @@ fn by_boxes(
         found.only_real = true;
         return;
     }
-    match real_assemblies(&closure.equations, MOST_OPEN, asked.stop) {
+    match real_assemblies(&closure.equations, LONG, asked.stop) {
         Some(real) => add_boxes(real, at, solution, next, found),
         None => {
             found.doubt.get_or_insert(format!("a group of {} bodies is too large", group.clusters.len()));

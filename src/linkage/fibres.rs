@@ -33,10 +33,7 @@ pub(super) fn by_fibres(
     choice: &Choice,
     certified: &[Proved],
 ) -> Option<Vec<(Root, bool)>> {
-    if !choice.tells_all_rotations() {
-        return None;
-    }
-    let exact = equations.exact()?;
+    let exact = equations.exact().filter(|exact| choice.tells_all(exact))?;
     let system = RealSystem::of(&exact)?;
     if !system.spinning.is_empty() || system.equations.iter().any(|equation| equation.degree() > 2) {
         return None;

@@ -10,6 +10,7 @@ use super::quadratic::Root;
 use super::state::Number;
 use crate::algebra::determinant::determinant;
 use crate::algebra::disc::Disc;
+use crate::algebra::echelon::Echelon;
 use crate::algebra::modp::ModP;
 use crate::algebra::ring::{Field, Ring};
 use crate::algebra::univariate::Univariate;
@@ -78,11 +79,24 @@ impl Choice {
         Some(one.add(&turned).mul(&one.sub(&turned).inverse()?).mul(&disc_of(&self.turn.z)))
     }
 
-    /// Whether a vector of the kernel tells all rotations: every class is the difference of two sets.
+    /// The classes whose rotations a vector of the kernel does not tell: those that are not the difference of two sets.
+    fn untold(&self) -> Vec<usize> {
+        let sets = &self.pencil.sets;
+        let has = |set: u32| sets.binary_search(&set).is_ok();
+        let is_untold = |(j, _): &(usize, &usize)| !sets.iter().any(|set| has(set ^ (1 << j)));
+        self.pencil.classes.iter().enumerate().filter(is_untold).map(|(_, class)| *class).collect()
+    }
+
+    /// Whether a vector of the kernel tells all rotations and displacements: what it does not tell itself follows from the cycles, as
+    /// the coefficients there are independent.
     #[must_use]
-    pub fn tells_all_rotations(&self) -> bool {
-        let has = |set: u32| self.pencil.sets.binary_search(&set).is_ok();
-        (0..self.pencil.classes.len()).all(|j| self.pencil.sets.iter().any(|set| has(set ^ (1 << j))))
+    pub fn tells_all(&self, equations: &Equations<Isotropic<Gaussian>>) -> bool {
+        let untold = self.untold();
+        let turns = untold.iter().map(|class| equations.cycles.iter().map(|cycle| cycle[*class].z.clone()).collect());
+        let slides = equations.slides.iter().map(|slide| slide.coefficients.iter().map(|n| n.z.clone()).collect());
+        let rows: Vec<Vec<Gaussian>> = turns.chain(slides).collect();
+        let count = rows.len();
+        Echelon::of(rows, equations.loops()).rank() == count
     }
 }
 
@@ -412,7 +426,8 @@ fn start(
     let size = choice.pencil.sets.len();
     let mut turns = vec![Complex::new(1.0, 0.0); equations.classes];
     turns[choice.hidden] = x;
-    for (j, class) in choice.pencil.classes.iter().enumerate() {
+    let untold = choice.untold();
+    for (j, class) in choice.pencil.classes.iter().enumerate().filter(|(_, class)| !untold.contains(class)) {
         let pairs = (0..size).filter(|k| choice.pencil.sets[*k] >> j & 1 == 1);
         let pairs = pairs
             .filter_map(|k| Some((k, choice.pencil.sets.binary_search(&(choice.pencil.sets[k] ^ (1 << j))).ok()?)));
@@ -421,23 +436,26 @@ fn start(
         let (with, without) = pairs.max_by(|a, b| weight(a).total_cmp(&weight(b)))?;
         turns[*class] = kernel[without] / kernel[with];
     }
-    if turns.iter().any(|turn| !turn.norm().is_normal()) {
-        return None;
-    }
-    // The slides from the first halves, by least squares.
     let slides = equations.slides.len();
-    if slides == 0 {
-        return Some((turns, Vec::new()));
+    if slides + untold.len() > 0 {
+        // The other rotations and the slides from the first halves, by least squares.
+        let loops = equations.loops();
+        let a = DMatrix::from_fn(loops, untold.len() + slides, |k, column| match column.checked_sub(untold.len()) {
+            None => equations.cycles[k][untold[column]].z,
+            Some(q) => equations.slides[q].coefficients[k].z * turns[equations.slides[q].class],
+        });
+        let told = (0..equations.classes).filter(|class| !untold.contains(class)).collect::<Vec<usize>>();
+        let b = DVector::from_fn(loops, |k, _| -told.iter().map(|j| equations.cycles[k][*j].z * turns[*j]).sum::<Complex<f64>>());
+        let solved: Vec<Complex<f64>> = a.svd(true, true).solve(&b, 1e-12).ok()?.iter().copied().collect();
+        untold.iter().zip(&solved).for_each(|(class, turn)| turns[*class] = *turn);
+        return is_torus(&turns).then(|| (turns, solved[untold.len()..].to_vec()));
     }
-    let loops = equations.loops();
-    let a = DMatrix::from_fn(loops, slides, |k, q| {
-        equations.slides[q].coefficients[k].z * turns[equations.slides[q].class]
-    });
-    let b = DVector::from_fn(loops, |k, _| {
-        -(0..equations.classes).map(|j| equations.cycles[k][j].z * turns[j]).sum::<Complex<f64>>()
-    });
-    let solved = a.svd(true, true).solve(&b, 1e-12).ok()?;
-    Some((turns, solved.iter().copied().collect()))
+    is_torus(&turns).then_some((turns, Vec::new()))
+}
+
+/// Whether no rotation is zero or infinite.
+fn is_torus(turns: &[Complex<f64>]) -> bool {
+    turns.iter().all(|turn| turn.norm().is_normal())
 }
 
 /// A vector that a nearly singular matrix nearly takes to zero, by inverse iteration.

@@ -7,7 +7,7 @@ use arms::random;
 use looproot::internal::catalogue::{Any, Format, LinkageFile, Options, any_from_text};
 use looproot::internal::linkage::answer::{LinkageAnswer, solve};
 use looproot::internal::linkage::assembly::groups_of;
-use looproot::internal::linkage::boxes::{MOST_OPEN, RealAssemblies, real_assemblies};
+use looproot::internal::linkage::boxes::{LONG, RealAssemblies, real_assemblies};
 use looproot::internal::linkage::equations::{Closure, Equations};
 use looproot::internal::linkage::general::general;
 use looproot::internal::linkage::isotropic::Value;
@@ -92,7 +92,7 @@ fn equations(file: &LinkageFile) -> Equations<Number> {
 }
 
 fn by_boxes(file: &LinkageFile) -> RealAssemblies {
-    real_assemblies(&equations(file), MOST_OPEN, &AtomicBool::new(false)).unwrap()
+    real_assemblies(&equations(file), LONG, &AtomicBool::new(false)).unwrap()
 }
 
 /// The angles of all classes against the first.
@@ -230,6 +230,6 @@ fn a_curve_of_assemblies_and_an_interrupt_end_the_search() {
     let file = file(text);
     let found = by_boxes(&file);
     assert!(found.doubt.unwrap().contains("too narrow to be decided"));
-    let found = real_assemblies(&equations(&file), MOST_OPEN, &AtomicBool::new(true)).unwrap();
+    let found = real_assemblies(&equations(&file), LONG, &AtomicBool::new(true)).unwrap();
     assert!(found.boxes == 0 && found.doubt.unwrap().starts_with("interrupted"));
 }

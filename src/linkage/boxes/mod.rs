@@ -22,12 +22,19 @@ use rayon::prelude::*;
 use search::{Fate, Search};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Most boxes of one group: forty times what 21 links need, two minutes.
-const MOST_BOXES: usize = 1 << 17;
-/// Most open boxes: a double assembly or a curve of assemblies leaves more, and further ones decide nothing.
-pub const MOST_OPEN: usize = 1 << 9;
-/// No open box, where a list that is not complete is of no use.
-pub const NONE_OPEN: usize = 0;
+/// How far a search goes.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// Most boxes of one group.
+    pub boxes: usize,
+    /// Most open boxes: a double assembly or a curve of assemblies leaves more, and further ones decide nothing.
+    pub open: usize,
+}
+
+/// For lists that are of use even if they are not complete: forty times the boxes that 21 links need, two minutes.
+pub const LONG: Effort = Effort { boxes: 1 << 17, open: 1 << 9 };
+/// For lists that are of no use unless they are complete: twice the boxes that 13 links need.
+pub const SHORT: Effort = Effort { boxes: 1 << 9, open: 0 };
 /// Boxes that are decided at a time: a multiple of the processors of any machine of today, so that the order does not depend on it.
 const TOGETHER: usize = 64;
 
@@ -42,9 +49,9 @@ pub struct RealAssemblies {
     pub doubt: Option<String>,
 }
 
-/// All real assemblies of a group, until the flag is raised or more boxes than this are open; `None` for groups with slides.
+/// All real assemblies of a group, until the flag is raised or as far as the effort goes; `None` for groups with slides.
 #[must_use]
-pub fn real_assemblies(equations: &Equations<Number>, most_open: usize, stop: &AtomicBool) -> Option<RealAssemblies> {
+pub fn real_assemblies(equations: &Equations<Number>, effort: Effort, stop: &AtomicBool) -> Option<RealAssemblies> {
     let search = Search::new(equations)?;
     let mut found = RealAssemblies { solutions: Vec::new(), boxes: 0, doubt: None };
     let mut open = 0;
@@ -55,7 +62,7 @@ pub fn real_assemblies(equations: &Equations<Number>, most_open: usize, stop: &A
             found.doubt = Some(format!("interrupted with {} boxes left", waiting.len()));
             break;
         }
-        if found.boxes >= MOST_BOXES || open > most_open {
+        if found.boxes >= effort.boxes || open > effort.open {
             break;
         }
         let together = waiting.split_off(waiting.len().saturating_sub(TOGETHER));
