@@ -18,6 +18,7 @@ use crate::algebra::disc::Disc;
 use crate::algebra::groebner::{Basis, Equation};
 use crate::algebra::local_multiplicity::{Quadric, multiplicity};
 use crate::algebra::minors::determinant_by_minors;
+use crate::algebra::real_roots::RealRoot;
 use crate::algebra::ring::Ring;
 use crate::algebra::univariate::Univariate;
 use crate::kinematics::linkage::Gaussian;
@@ -65,7 +66,7 @@ fn roots(choice: &Choice) -> Option<(usize, Vec<Gaussian>)> {
             simple += degree;
             continue;
         }
-        let found: Vec<Rational> = part.real_roots().iter_mut().filter_map(|root| root.rational()).collect();
+        let found: Vec<Rational> = part.real_roots().iter_mut().filter_map(RealRoot::rational).collect();
         if found.len() != degree {
             return None;
         }
@@ -98,7 +99,8 @@ fn fibre(system: &RealSystem, choice: &Choice, x: &Gaussian) -> Option<Vec<(Root
             let (turns, shifts) = within(system, &at);
             return is_regular(system, &at).then_some((Root { turns, shifts, multiplicity: 1 }, root.is_real()));
         };
-        let equations: Vec<Quadric<Rational>> = system.equations.iter().map(|equation| quadric(equation, &at)).collect();
+        let equations: Vec<Quadric<Rational>> =
+            system.equations.iter().map(|equation| quadric(equation, &at)).collect();
         let (turns, shifts) = exactly(system, &at);
         Some((Root { turns, shifts, multiplicity: multiplicity(&equations, MOST)? }, true))
     };

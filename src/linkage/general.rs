@@ -68,7 +68,7 @@ impl Choice {
     pub fn rotation(&self, t: &Rational) -> Gaussian {
         let square = Rational::from(t * t);
         let length = Rational::from(&square + 1);
-        let own = Gaussian { re: Rational::from(1 - square) / &length, im: Rational::from(t * 2_u32) / &length };
+        let own = Gaussian { re: (1 - square) / &length, im: Rational::from(t * 2_u32) / &length };
         own.mul(&self.turn.z)
     }
 
@@ -392,7 +392,9 @@ fn precise_kernel(choice: &Choice, x: &Disc) -> Option<DVector<Complex<f64>>> {
         let weight = |(i, j): &(usize, usize)| middle(&matrix[*i][*j]).norm();
         let (row, column) = entries.max_by(|a, b| weight(a).total_cmp(&weight(b)))?;
         matrix.swap(step, row);
-        matrix.iter_mut().for_each(|row| row.swap(step, column));
+        for row in &mut matrix {
+            row.swap(step, column);
+        }
         columns.swap(step, column);
         let inverse = matrix[step][step].inverse()?;
         let pivot: Vec<Disc> = matrix[step].iter().map(|entry| entry.mul(&inverse)).collect();

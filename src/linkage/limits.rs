@@ -55,53 +55,66 @@ pub fn complex_limits(linkage: &Linkage, held: &[Given], joint: usize) -> Option
         return count(&closure.equations, input);
     }
     // Where limit positions coincide, the whole may still be decided.
-    by_groups(linkage, &parts, &state, &closure)?.or_else(|| count(&closure.equations, input))
+    match by_groups(linkage, &parts, &state, &closure) {
+        ByGroups::Number(number) => Some(number),
+        ByGroups::Open => count(&closure.equations, input),
+        ByGroups::TooMuch => None,
+    }
 }
 
-/// The number by groups, `Some(None)` where limit positions coincide and where groups have slides; `None` where a basis takes too much
-/// work.
+/// What groups say of the number of limit positions.
+enum ByGroups {
+    /// This is the number.
+    Number(usize),
+    /// Limit positions coincide, or groups have slides.
+    Open,
+    /// A basis takes too much work.
+    TooMuch,
+}
+
+/// The number by groups.
 ///
 /// With the input at rest and velocities measured group by group, the matrix M is block-triangular, as a group stands on earlier ones
 /// only: det M is the product of the determinants of the groups, on all positions. A position where one of them alone is zero, and
 /// simply, is a simple solution of the whole.
-fn by_groups(linkage: &Linkage, parts: &[Solution], state: &State, closure: &Closure) -> Option<Option<usize>> {
-    let exact = closure.equations.exact()?;
+fn by_groups(linkage: &Linkage, parts: &[Solution], state: &State, closure: &Closure) -> ByGroups {
+    let Some(exact) = closure.equations.exact() else { return ByGroups::TooMuch };
     let unknowns = unknowns(&exact);
     if unknowns > MOST_VARIABLES {
-        return None;
+        return ByGroups::TooMuch;
     }
     let determinants: Option<Vec<Equation>> =
         parts.iter().map(|part| determinant_of(linkage, part, state, closure)).collect();
     // Those of groups with slides are not written down.
-    let Some(determinants) = determinants else { return Some(None) };
+    let Some(determinants) = determinants else { return ByGroups::Open };
     let mut system: Vec<Equation> = cycle_forms(&exact).into_iter().flat_map(|sum| [sum.re, sum.im]).collect();
     system.extend(circles(exact.classes));
     system.retain(|equation| !equation.is_zero());
     let basis = |zero: &[&Equation]| {
         let all: Vec<Equation> = system.iter().chain(zero.iter().copied()).cloned().collect();
-        Basis::of(unknowns, &all, GROUP_EFFORT)
+        <Basis>::of(unknowns, &all, GROUP_EFFORT)
     };
     let mut total = 0;
     for (k, own) in determinants.iter().enumerate() {
-        let found: Basis = basis(&[own])?;
+        let Some(found) = basis(&[own]) else { return ByGroups::TooMuch };
         match found.dimension() {
             None => continue,
             Some(0) => {}
-            Some(_) => return Some(None),
+            Some(_) => return ByGroups::Open,
         }
-        let ring = FiniteRing::of(&found)?;
+        let Some(ring) = FiniteRing::of(&found) else { return ByGroups::TooMuch };
         if ring.distinct() != ring.dimension() {
-            return Some(None);
+            return ByGroups::Open;
         }
         for other in &determinants[..k] {
-            let both: Basis = basis(&[own, other])?;
+            let Some(both) = basis(&[own, other]) else { return ByGroups::TooMuch };
             if both.dimension().is_some() {
-                return Some(None);
+                return ByGroups::Open;
             }
         }
         total += ring.dimension();
     }
-    Some(Some(total))
+    ByGroups::Number(total)
 }
 
 /// The variable that stands still.

@@ -61,7 +61,9 @@ pub(super) fn moving(system: &RealSystem, dimension: usize) -> Moving {
     }
     let first = movers(&cut, &point).into_iter().find_map(|moved| {
         let step = moved.nearest_step(&cut, &point);
-        [0, 1, -1].into_iter().find_map(|by| Some((moved, step + by, real_member(&moved.cut(&cut, step + by), &point.turns(&cut))?)))
+        [0, 1, -1]
+            .into_iter()
+            .find_map(|by| Some((moved, step + by, real_member(&moved.cut(&cut, step + by), &point.turns(&cut))?)))
     });
     let Some((moved, first, (member, _))) = first else { return found };
     let turns = middles(&member);
@@ -84,7 +86,9 @@ pub(super) fn moving(system: &RealSystem, dimension: usize) -> Moving {
         }
     }
     let mut rates = rates.unwrap_or_default();
-    let unit = |class: &usize| (0..system.turns.len() + system.shifts.len()).map(|k| f64::from(u8::from(k == *class))).collect();
+    let unit = |class: &usize| {
+        (0..system.turns.len() + system.shifts.len()).map(|k| f64::from(u8::from(k == *class))).collect()
+    };
     rates.extend(system.spinning.iter().map(unit));
     found.sample = Some((member, rates));
     found
@@ -259,7 +263,8 @@ fn real_member(system: &RealSystem, turns: &[Complex<f64>]) -> Option<(Root, boo
         return None;
     }
     let far = |root: &Root| middles(root).iter().zip(turns).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
-    let real: Vec<Root> = solutions(system, &basis)?.into_iter().filter(|(_, real)| *real).map(|(root, _)| root).collect();
+    let real: Vec<Root> =
+        solutions(system, &basis)?.into_iter().filter(|(_, real)| *real).map(|(root, _)| root).collect();
     let is_simple = real.iter().any(|root| root.multiplicity == 1);
     Some((real.into_iter().min_by(|a, b| far(a).total_cmp(&far(b)))?, is_simple))
 }

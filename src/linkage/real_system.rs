@@ -116,12 +116,12 @@ impl RealSystem {
             None => Form::one(),
             Some(column) => Form { re: values[column].clone(), im: values[column + 1].clone() },
         };
-        let shift = |q: usize| match columns.straight.iter().position(|own| *own == q) {
-            Some(column) => values[column].clone(),
-            None => {
-                let place = columns.bent.iter().position(|own| *own == q).unwrap_or(0);
-                Equation::variable(free.len() + place)
+        let shift = |q: usize| {
+            if let Some(column) = columns.straight.iter().position(|own| *own == q) {
+                return values[column].clone();
             }
+            let place = columns.bent.iter().position(|own| *own == q).unwrap_or(0);
+            Equation::variable(free.len() + place)
         };
         let mut system = Self {
             unknowns,
@@ -222,7 +222,8 @@ fn solved_columns(solved: &Echelon<Rational>, linear: usize, free: &[usize]) -> 
         }
         let Some(row) = solved.pivots().iter().position(|pivot| *pivot == column) else { return Equation::zero() };
         let row = &solved.rows()[row];
-        let terms = free.iter().enumerate().map(|(variable, own)| Equation::variable(variable).mul(&rational(&row[*own])));
+        let terms =
+            free.iter().enumerate().map(|(variable, own)| Equation::variable(variable).mul(&rational(&row[*own])));
         terms.fold(rational(&row[linear]), |sum, term| sum.add(&term)).neg()
     };
     (0..linear).map(value).collect()
