@@ -5,7 +5,7 @@
 //! Cramer's pencil ([`pencil`]), whose determinant is an exact polynomial ([`polynomial`]), and groups with gears by a Gröbner
 //! basis ([`gears`]). The list is called complete only if
 //! that polynomial has as many roots as there are certified solutions ([`krawczyk`]), or if a Gröbner basis over the rationals says
-//! which assemblies there are ([`exact_group`]): those of groups with multiple assemblies and of groups that move.
+//! which assemblies there are (`exact_group`): those of groups with multiple assemblies and of groups that move.
 
 pub mod answer;
 pub mod assembly;
