@@ -20,9 +20,9 @@ const CRAWL: f64 = 1e-6;
 const SAME_WAY: f64 = 0.8;
 /// Chords of steps lie as near to their curve.
 const SAG: f64 = 5e-3;
-/// Steps over the way that distances have gone, once that is above 1: a slide without end is straight far away, where short steps show
-/// nothing new.
-const FAR_STEP: f64 = 0.1;
+/// Steps over the way that distances have gone, once that is five times the scale of the loop: a slide without end is straight far away,
+/// where short steps show nothing new.
+const FAR_STEP: f64 = 0.02;
 /// The way of a distance, in parts of the scale of the loop, after which a curve is not followed any more: it goes on without end,
 /// or nobody builds it.
 const FAR: f64 = 300.0;
