@@ -12,6 +12,9 @@ use rug::Float;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
+/// What is not known where a group moves on which others stand.
+const UNFOLLOWED: &str = "a group moves by itself, and groups that stand on it were not followed along that motion";
+
 /// A joint value or a coordinate, real of a real assembly.
 pub type Coordinate = Complex<f64>;
 
@@ -204,10 +207,12 @@ fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily]
     };
     let (status, proof, code, reason) = if let Some(first) = moving.iter().find(|family| is_one(&family.state)) {
         let (is_proved, reason) = motion(first, found);
-        (Status::SelfMotion, if is_proved { rounded } else { Proof::None }, Code::SelfMotion, reason)
+        // Along the motion of another group there may be more freedoms.
+        let is_all = moving.iter().all(|family| is_one(&family.state));
+        let reason = if is_all { reason } else { format!("{reason}; {UNFOLLOWED}") };
+        (Status::SelfMotion, if is_proved && is_all { rounded } else { Proof::None }, Code::SelfMotion, reason)
     } else if !moving.is_empty() {
-        let reason = "not proved: a group moves by itself, and groups that stand on it were not followed along that motion";
-        (Status::Incomplete, Proof::None, Code::TooFew, reason.to_owned())
+        (Status::Incomplete, Proof::None, Code::TooFew, format!("not proved: {UNFOLLOWED}"))
     } else if let Some(doubt) = &found.doubt {
         (Status::Incomplete, Proof::None, Code::TooFew, format!("not proved: {doubt}"))
     } else if !complete {

@@ -532,7 +532,10 @@ fn add(
             for root in &roots {
                 let state = closure.assembled(state, &root.turns, &root.shifts);
                 let joints = group.joints.clone();
-                found.curves.push(Family { state, joints, dimension: 1, kind: FamilyKind::Dyad, is_proved: true });
+                // Where all three joints coincide, both links turn.
+                let is_point = closure.equations.classes == 3 && closure.equations.cycles[0].iter().all(Ring::is_zero);
+                let dimension = if is_point { 2 } else { 1 };
+                found.curves.push(Family { state, joints, dimension, kind: FamilyKind::Dyad, is_proved: true });
             }
         }
         Solved::Roots(roots) => {
