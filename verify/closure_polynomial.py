@@ -16,7 +16,8 @@ def check_polynomial(system, modes, claim, item):
         raise Refused("proof: membership: the unknown is not the angle of an eliminant over the rational numbers")
     check_lengths(system.links, decimal("0"))
     polynomial = fmpq_poly([integer(text) for text in items(claim["polynomial"])])
-    if polynomial.degree() != whole(claim["degree"]) or polynomial[polynomial.degree()] <= 0 or polynomial.numer().content() != 1:
+    is_whole = len(claim["polynomial"]) == polynomial.degree() + 1 == whole(claim["degree"]) + 1
+    if not is_whole or polynomial[polynomial.degree()] <= 0 or polynomial.numer().content() != 1:
         raise Refused("claim: the polynomial is not of this degree, or has a common factor or another sign")
     rest, remainder = divmod(fmpq_poly(Eliminant(system.links, system.kinds, first, hidden).polynomial()), polynomial)
     tangents = [(box_of(*centre_of(system, mode))[unknown] / 2).tan() for mode in modes]

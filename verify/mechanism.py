@@ -95,7 +95,7 @@ class Reader:
         place = {key: self.matrix(mechanism[key]) if key in mechanism else IDENTITY for key in ("base", "home", "tool")}
         joint_held, variable_held, value = self.held(given) if given is not None else (0, None, None)
         joints, parts, spherical = items(mechanism["joints"]), [place["base"]], []
-        if joint_held > len(joints):
+        if given is not None and not 1 <= joint_held <= len(joints):
             raise Unreadable("found an input of a joint that is not there")
         for at, joint in enumerate(joints, 1):
             kind = joint.get("type") if isinstance(joint, dict) else None

@@ -117,6 +117,6 @@ def items(value, count=None):
 
 
 def whole(value):
-    if not isinstance(value, Whole) or len(value) > 6:
+    if not isinstance(value, Whole) or len(value) > 6 or not value.isdigit():
         raise Unreadable(f"found {str(value)[:40]!r}, expected a whole number")
     return int(value)

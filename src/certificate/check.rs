@@ -12,6 +12,7 @@ use super::platform::PlatformClosure;
 use super::polynomial;
 use super::real_zeros;
 use super::record::{Claim, Record, count, fields};
+use super::strict::Strict;
 use crate::catalogue::Chains;
 use crate::catalogue::entry::{Case, Design, Entry};
 use serde_json::{Deserializer, Value};
@@ -225,8 +226,8 @@ pub fn check_all(
         if part.len() > LARGEST {
             return unreadable(format!("found more than {LARGEST} bytes in one certificate"));
         }
-        for value in Deserializer::from_str(part).into_iter::<Value>() {
-            let value = value.map_err(|error| Fault::Unreadable(format!("found no JSON: {error}")))?;
+        for value in Deserializer::from_str(part).into_iter::<Strict>() {
+            let Strict(value) = value.map_err(|error| Fault::Unreadable(format!("found no JSON: {error}")))?;
             found += 1;
             match check(&value, file) {
                 Err(Fault::Unreadable(message)) => return unreadable(message),

@@ -24,6 +24,7 @@ mod polynomial;
 mod real_zeros;
 mod record;
 mod refine;
+mod strict;
 
 pub use bound::{proof_of, proof_of_real_list};
 pub use chain::ChainClosure;

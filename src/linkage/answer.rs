@@ -175,7 +175,7 @@ fn motion(family: &Family, found: &Assemblies) -> (bool, String) {
         return (found.doubt.is_none(), format!("{what} turns freely; {list}"));
     }
     let real = if family.is_proved {
-        "a curve of real ones is among them: cuts at more places than there can be isolated ones have a simple real assembly each"
+        "a curve of real ones is among them: cuts at more places than there can be isolated ones have a real assembly each"
     } else {
         "the real one that is listed has others near it to first order"
     };
@@ -184,6 +184,10 @@ fn motion(family: &Family, found: &Assemblies) -> (bool, String) {
          isolated assemblies beside it are not all looked for",
         family.dimension
     );
+    // That the real ones have this dimension too is not shown beyond curves.
+    if family.dimension > 1 {
+        return (false, format!("{reason}; that the real ones have this dimension too is not proved"));
+    }
     (family.is_proved, reason)
 }
 
@@ -205,8 +209,12 @@ fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily]
     } else {
         Code::GeneralBoundMet
     };
-    let (status, proof, code, reason) = if let Some(first) = moving.iter().find(|family| is_one(&family.state)) {
-        let (is_proved, reason) = motion(first, found);
+    let whole: Vec<&Family> = moving.iter().copied().filter(|family| is_one(&family.state)).collect();
+    // Of a motion of several joints isolated assemblies beside it are not all known, whatever turns freely elsewhere.
+    let first = whole.iter().find(|family| family.kind == FamilyKind::Other).or(whole.first());
+    let (status, proof, code, reason) = if let Some(first) = first {
+        let (is_first, reason) = motion(first, found);
+        let is_proved = is_first && whole.iter().all(|family| family.kind != FamilyKind::Other || motion(family, found).0);
         // Along the motion of another group there may be more freedoms.
         let is_all = moving.iter().all(|family| is_one(&family.state));
         let reason = if is_all { reason } else { format!("{reason}; {UNFOLLOWED}") };

@@ -103,7 +103,9 @@ fn parts(system: &RealSystem) -> usize {
 
 /// The most irreducible components that the complex solutions of the equations can have. \[Fulton1998\]
 fn components(system: &RealSystem) -> usize {
-    system.equations.iter().fold(1, |product: usize, equation| product.saturating_mul(equation.degree()))
+    // An equation that is 0 bounds nothing.
+    let degrees = system.equations.iter().map(|equation| equation.degree().max(1));
+    degrees.fold(1, usize::saturating_mul)
 }
 
 /// The rotations of a member in f64.
