@@ -23,7 +23,9 @@
 //! off by a factor 1 + D, the twist is off by at most `3 |D|` times its lever, `|z| (1 + |p|)`, which may be large even if the
 //! twist is small.
 
+pub mod circle_lanes;
 pub mod circle_zeros;
+pub mod closure_lanes;
 pub mod closure_zeros;
 pub mod pose;
 mod refined;

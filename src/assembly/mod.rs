@@ -5,6 +5,7 @@ mod spherical;
 mod closed_form;
 pub mod ss_dyad;
 mod few_revolutes;
+mod lane_list;
 mod limits;
 mod mode;
 pub mod platform;

@@ -53,12 +53,12 @@ impl Search<'_> {
 /// Returns the number of real modes in a list; `None` where one of them is not certified, or not apart from all others.
 #[must_use]
 pub fn distinct_real(variables: &[Variable; 6], modes: &[Mode]) -> Option<usize> {
-    let real: Vec<&Mode> = modes.iter().filter(|mode| mode.real).collect();
-    let is_simple = |k: usize| {
-        let is_certified = real[k].multiplicity == 1 && real[k].certificate.is_some();
-        is_certified && real[..k].iter().all(|other| are_apart(variables, other, real[k]))
+    let real = || modes.iter().filter(|mode| mode.real);
+    let is_simple = |(k, mode): (usize, &Mode)| {
+        let is_certified = mode.multiplicity == 1 && mode.certificate.is_some();
+        is_certified && real().take(k).all(|other| are_apart(variables, other, mode))
     };
-    (0..real.len()).all(is_simple).then_some(real.len())
+    real().enumerate().all(is_simple).then(|| real().count())
 }
 
 #[cfg(test)]
@@ -74,15 +74,20 @@ mod tests {
 
     const UNKNOWNS: [Variable; 6] = [Variable::Rotation; 6];
 
-    /// Returns an arm whose DH values are off by up to `off`: one with parallel axes, one with a wrist, or a general one.
+    /// Returns an arm whose DH values are off by up to `off`: one with parallel axes, one with a wrist, a badly scaled one, or a general one.
     fn arm(kind: usize, off: f64, random: &mut ChaCha8Rng) -> Solver {
         let q = PI / 2.0;
         let rows = match kind {
             0 => [(0.0, q, 0.09), (-0.43, 0.0, 0.0), (-0.39, 0.0, 0.0), (0.0, q, 0.11), (0.0, -q, 0.095), (0.0, 0.0, 0.08)],
             1 => [(0.0, -q, 0.0), (0.43, 0.0, 0.15), (0.02, -q, 0.0), (0.0, q, 0.43), (0.0, -q, 0.0), (0.0, 0.0, 0.1)],
-            _ => std::array::from_fn(|_| {
+            2 => std::array::from_fn(|_| {
                 let mut value = |size: f64| random.random_range(-size..size);
                 (value(0.5), value(3.0), value(0.5))
+            }),
+            _ => std::array::from_fn(|_| {
+                let mut value = |size: f64| random.random_range(-size..size);
+                let [a, d] = [(); 2].map(|()| value(0.5) * 10_f64.powf(value(1.5)));
+                (a, value(3.0), d)
             }),
         };
         let links = rows.map(|(a, alpha, d): (f64, f64, f64)| {
@@ -144,6 +149,41 @@ mod tests {
             }
         }
         assert!(count > 280 && 100 * proved > 97 * count, "{proved} of {count} are proved");
+    }
+
+    /// The lists made side by side and one by one are the same wherever both are proved.
+    #[test]
+    fn quick_lists_are_the_same() {
+        let mut random = ChaCha8Rng::seed_from_u64(7);
+        let (mut workspace, mut quick, mut close) = (Workspace::default(), Assembly::default(), Assembly::default());
+        for (kind, off, least) in [(2, 0.0, 97), (3, 0.0, 90), (0, 0.0, 0), (1, 0.0, 0), (0, 1e-4, 90), (1, 1e-7, 90), (0, 1e-10, 0)] {
+            let (mut both, mut count) = (0, 0);
+            for _ in 0..40 {
+                let solver = arm(kind, off, &mut random);
+                for _ in 0..5 {
+                    let gap = gap(&solver, &mut random);
+                    let exact = || Some(stored(&solver));
+                    count += 1;
+                    if !solver.solve_real_quickly(&gap, &exact, Margin::Blur(0.0), &mut workspace, &mut quick) {
+                        continue;
+                    }
+                    both += 1;
+                    if !solver.solve_real_closely(&gap, &exact, Margin::Blur(0.0), &mut workspace, &mut close) {
+                        continue;
+                    }
+                    assert_eq!(quick.modes.len(), close.modes.len(), "kind {kind}, {off}");
+                    // Solutions that share an angle come in any order.
+                    let radius = |mode: &crate::assembly::Mode| mode.certificate.unwrap().radius;
+                    for one in &quick.modes {
+                        let is_it = |other: &crate::assembly::Mode| {
+                            distance(&UNKNOWNS, &one.unknowns, &other.unknowns) <= radius(one) + radius(other)
+                        };
+                        assert!(close.modes.iter().any(is_it), "kind {kind}, {off}: {one:?}");
+                    }
+                }
+            }
+            assert!(100 * both >= least * count, "kind {kind}, {off}: {both} of {count}");
+        }
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! A geometry prepared once for many poses.
 
 use super::axis_triples::{AxisTriple, decoupled};
+use super::lane_list::{LaneList, LaneWorkspace};
 use super::limits;
 use super::mode::{Assembly, Mode, Roots};
 use super::platform::{PlatformAssembly, PlatformWorkspace};
@@ -63,6 +64,8 @@ pub struct Solver {
     spherical: Option<usize>,
     /// The cuts and hidden angles in which real solutions are looked for by zeros, those first in which they are apart as a rule.
     zero_order: OnceLock<Vec<(usize, Hidden)>>,
+    /// The same side by side.
+    lanes: OnceLock<LaneList>,
 }
 
 /// The closing transformation at a pose or input: the constant behind the last unknown, in the scale of its solver.
@@ -85,6 +88,9 @@ pub enum Margin {
 
 /// Values of six unknowns without any property.
 const ANY_PLACE: [f64; 6] = [0.7, -1.1, 1.9, 0.4, -2.3, 1.3];
+/// Places at which ways to find real solutions are compared: with one, the first way fails at 8 poses of general arms in a hundred, with
+/// so many at 6.
+const PLACES: usize = 5;
 /// Rounding errors, in units u, of the rotation of a closing transformation, by rows. It is a product of three rotations,
 /// each rounded once. An entry of the first product is off by 5 u, one of the second by 5 sqrt(3) u and 4 u of its own.
 const GAP_TURN: f64 = 40.0;
@@ -113,12 +119,15 @@ fn scaled(motion: &Motion<f64>, scale: f64) -> Motion<f64> {
 #[derive(Default)]
 pub struct Workspace {
     eigen: EigenWorkspace,
+    lanes: LaneWorkspace,
     /// The workspace of platforms.
     pub platform: PlatformWorkspace,
     /// The last result for a platform.
     pub platform_assembly: PlatformAssembly,
     /// Whether a list counts as complete once its real solutions are, though complex ones may be missing.
     pub only_real_list: bool,
+    /// Whether real solutions are looked for side by side first, and complex ones only where these are not proved to be all.
+    pub real_first: bool,
     /// Whether clustered solutions are listed without a proof of completeness if the numbers lie in a number field, where
     /// that proof takes seconds.
     pub leaves_fields: bool,
@@ -166,7 +175,8 @@ impl Solver {
         let structural_rank = structural_rank(&closed);
         let axis_triples = AxisTriple::all(&open);
         let decoupled = decoupled(&open);
-        Self { open, scale, prepared, structural_rank, axis_triples, decoupled, spherical: None, zero_order: OnceLock::new() }
+        let (zero_order, lanes) = (OnceLock::new(), OnceLock::new());
+        Self { open, scale, prepared, structural_rank, axis_triples, decoupled, spherical: None, zero_order, lanes }
     }
 
     /// As [`Solver::prepare`] for a loop with a spherical joint, whose three rotations begin at this unknown.
@@ -323,6 +333,43 @@ impl Solver {
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) -> bool {
+        self.solve_real_quickly(gap, exact, margin, workspace, assembly)
+            || self.solve_real_closely(gap, exact, margin, workspace, assembly)
+    }
+
+    /// As [`Solver::solve_real`] for loops of rotations, all solutions side by side, with bounds of errors that are cheap and so not the least.
+    /// Allocates nothing once `assembly` has grown to its size.
+    pub fn solve_real_quickly(
+        &self,
+        gap: &Gap,
+        exact: &dyn Fn() -> Option<ClosedLoop<DoubleDouble>>,
+        margin: Margin,
+        workspace: &mut Workspace,
+        assembly: &mut Assembly,
+    ) -> bool {
+        assembly.clear();
+        if self.structural_rank < 6 || self.spherical.is_some() {
+            return false;
+        }
+        let unit = DoubleDouble::from(1.0 / self.scale);
+        let exact = || exact().map(|exact| exact.in_unit(&unit));
+        let places = || -> Vec<ClosedLoop<f64>> { (0..PLACES).map(|turns| self.at_any_place(turns)).collect() };
+        let lanes = self.lanes.get_or_init(|| LaneList::new(&self.prepared, &exact, &places()));
+        let [off, blur] = self.margins(gap, margin);
+        let is_proved = lanes.solve(&self.close(gap), [off, blur, gap.rounding], &mut workspace.lanes, assembly);
+        self.finish(assembly);
+        is_proved
+    }
+
+    /// As [`Solver::solve_real`], one solution after the other, with a bound for the error of every number.
+    pub fn solve_real_closely(
+        &self,
+        gap: &Gap,
+        exact: &dyn Fn() -> Option<ClosedLoop<DoubleDouble>>,
+        margin: Margin,
+        workspace: &mut Workspace,
+        assembly: &mut Assembly,
+    ) -> bool {
         assembly.clear();
         if self.structural_rank < 6 || self.spherical.is_some() {
             return false;
@@ -331,7 +378,16 @@ impl Solver {
         let unit = DoubleDouble::from(1.0 / self.scale);
         let exact = || exact().map(|exact| exact.in_unit(&unit));
         let order = self.zero_order.get_or_init(|| self.zero_order(&exact));
-        let margins = match margin {
+        let mut search = self.searched(gap, &closed, Roots::Real, Effort::OnePencil, workspace, assembly);
+        let is_proved = search.by_zeros(order, self.margins(gap, margin), &exact);
+        self.finish(assembly);
+        is_proved
+    }
+
+    /// Returns a bound of what the closing transformation is off beyond a few roundings, and the part of the largest value of the
+    /// determinant below which zeros count as double.
+    fn margins(&self, gap: &Gap, margin: Margin) -> [f64; 2] {
+        match margin {
             // A turn by a small angle changes a row of a rotation by less than twice that angle, and a translation by the angle times
             // the length that is turned: one end, and the translation itself.
             Margin::Tolerance(Tolerance { length: shift, angle }) => {
@@ -339,19 +395,23 @@ impl Solver {
                 [gap.rounding + 1.01 * (shift / self.scale + 2.0 * angle * (1.0 + 2.0 * ends)), 0.0]
             }
             Margin::Blur(blur) => [gap.rounding, blur],
-        };
-        let mut search = self.searched(gap, &closed, Roots::Real, Effort::OnePencil, workspace, assembly);
-        let is_proved = search.by_zeros(order, margins, &exact);
-        self.finish(assembly);
-        is_proved
+        }
+    }
+
+    /// Returns the loop closed at a place without any property, of which there are six.
+    fn at_any_place(&self, turns: usize) -> ClosedLoop<f64> {
+        let mut closed = self.close(&self.gap(&Motion::identity()));
+        closed.constants[5] = Motion::identity();
+        let mut place = ANY_PLACE;
+        place.rotate_left(turns);
+        closed.constants[5] = product(&closed, &place.map(|x| (x.cos(), x.sin())), 6).inverse();
+        closed
     }
 
     /// Returns the cuts and hidden angles, those first that tell the zeros apart at a pose without any property: where a geometry is
     /// special, solutions share some of the angles at every pose.
     fn zero_order(&self, exact: &dyn Fn() -> Option<ClosedLoop<DoubleDouble>>) -> Vec<(usize, Hidden)> {
-        let mut closed = self.close(&self.gap(&Motion::identity()));
-        closed.constants[5] = Motion::identity();
-        closed.constants[5] = product(&closed, &ANY_PLACE.map(|x| (x.cos(), x.sin())), 6).inverse();
+        let closed = self.at_any_place(0);
         let mut order: Vec<(bool, usize, Hidden)> = Vec::new();
         for (k, prepared) in self.prepared.iter().enumerate() {
             let Some(rows) = prepared.enclosed(exact) else { continue };

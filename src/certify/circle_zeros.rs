@@ -14,23 +14,22 @@ use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
 /// Degree of the trigonometric polynomial.
-const DEGREE: usize = 8;
+pub(super) const DEGREE: usize = 8;
 /// Number of Bernstein coefficients.
-const SIZE: usize = 2 * DEGREE + 1;
+pub(super) const SIZE: usize = 2 * DEGREE + 1;
 /// Number of samples: 17 are needed, and arcs begin at samples.
 pub const SAMPLES: usize = 24;
 /// Number of arcs: on a longer one `(1 + t^2)^8` varies much, and so does the meaning of a bound.
-const ARCS: usize = 8;
-/// Angle of the first sample, the middle of the first arc: zeros of real mechanisms tend to lie at multiples of a right angle, where the
-/// circle must not be divided.
-const OFFSET: f64 = 0.4;
-/// No sample's cosine or sine is off by more: the angle is a sum and a quotient, rounded in units of 7, and a library's cosine and
-/// sine are off by a unit in the last place.
-pub const SAMPLE_ERROR: f64 = 4e-15;
+pub(super) const ARCS: usize = 8;
+/// Half-tangent `1/5` of the angle of the first sample, the middle of the first arc: its cosine is 12/13 and its sine 5/13. Zeros of real
+/// mechanisms tend to lie at multiples of a right angle, where the circle must not be divided.
+const FIRST: [f64; 3] = [12.0, 5.0, 13.0];
+/// No sample's cosine or sine is off by more: they are computed in double-double arithmetic and rounded once.
+pub const SAMPLE_ERROR: f64 = f64::EPSILON;
 /// Arcs are halved no further: zeros nearer than 1e-10 count as multiple.
-const DEPTH: usize = 32;
+pub(super) const DEPTH: usize = 32;
 /// Number of intervals after which the zeros count as crowded: sixteen zeros a distance 1e-3 apart need 300.
-const MOST: usize = 600;
+pub(super) const MOST: usize = 600;
 /// Half a unit in the last place of 1.
 const ROUNDOFF: f64 = f64::EPSILON / 2.0;
 
@@ -42,32 +41,37 @@ struct Tables {
 }
 
 static TABLES: LazyLock<Tables> = LazyLock::new(|| {
-    let samples = std::array::from_fn(|j| {
-        let (sin, cos) = (OFFSET + TAU * j as f64 / SAMPLES as f64).sin_cos();
-        (cos, sin)
-    });
+    let [cos, sin, over] = FIRST.map(DoubleDouble::from);
+    let over = over.inverse().unwrap_or(DoubleDouble::one());
+    let first = Long::new(cos.mul(&over), sin.mul(&over));
+    let samples = turns().map(|turn| first.mul(&turn)).map(|w| (w.re.to_f64(), w.im.to_f64()));
     Tables { samples, weights: weights() }
 });
 
 type Long = Complex<DoubleDouble>;
 
-/// Returns the weights: the Bernstein coefficients of `(1 + t^2)^8 (1 + 2 sum cos k (q - q_j)) / 24`, k = 1 to 8, for every sample q_j.
-fn weights() -> [[f64; SAMPLES]; SIZE] {
+/// Returns `e^(i k q)` for q = 15 degrees and k = 0 to 23.
+fn turns() -> [Long; SAMPLES] {
     let real = |x: f64| DoubleDouble::from(x);
-    // cos 15 degrees = sqrt(2 + sqrt 3) / 2, and tan 11.25 degrees, where an arc of 45 degrees ends.
-    let root = |x: DoubleDouble| Number::root(x);
-    let half = |x: DoubleDouble| x.mul(&real(0.5));
-    let step: Long = Complex::new(
-        half(root(real(2.0).add(&root(real(3.0))))),
-        half(root(real(2.0).sub(&root(real(3.0))))),
-    );
-    let two = root(real(2.0));
-    let end = root(real(4.0).add(&two).add(&two)).sub(&two).sub(&real(1.0));
-    // e^(i k q_j), k = j' modulo 24.
+    // cos 15 degrees = sqrt(2 + sqrt 3) / 2.
+    let half = |x: DoubleDouble| Number::root(x).mul(&real(0.5));
+    let three = Number::root(real(3.0));
+    let step = Long::new(half(real(2.0).add(&three)), half(real(2.0).sub(&three)));
     let mut turns = [Long::one(); SAMPLES];
     for k in 1..SAMPLES {
         turns[k] = turns[k - 1].mul(&step);
     }
+    turns
+}
+
+/// Returns the weights: the Bernstein coefficients of `(1 + t^2)^8 (1 + 2 sum cos k (q - q_j)) / 24`, k = 1 to 8, for every sample q_j.
+pub(super) fn weights() -> [[f64; SAMPLES]; SIZE] {
+    let real = |x: f64| DoubleDouble::from(x);
+    // tan 11.25 degrees, where an arc of 45 degrees ends.
+    let root = |x: DoubleDouble| Number::root(x);
+    let two = root(real(2.0));
+    let end = root(real(4.0).add(&two).add(&two)).sub(&two).sub(&real(1.0));
+    let turns = turns();
     let mut weights = [[0.0; SAMPLES]; SIZE];
     let mut sums = [[real(0.0); SAMPLES]; SIZE];
     for k in 0..=DEGREE {
@@ -226,7 +230,7 @@ pub fn zeros(values: &[f64; SAMPLES], errors: &[f64; SAMPLES]) -> Option<Zeros> 
             match piece.count() {
                 Count::None => {}
                 Count::One if zeros.count < 2 * DEGREE => {
-                    let middle = OFFSET + TAU * arc as f64 / ARCS as f64;
+                    let middle = FIRST[1].atan2(FIRST[0]) + TAU * arc as f64 / ARCS as f64;
                     zeros.angles[zeros.count] = middle + 2.0 * zero_of(&piece).atan();
                     zeros.count += 1;
                 }

@@ -12,6 +12,7 @@
 //! Hence a loop has at most as many real configurations as the exact determinant has real zeros, if all of these are simple.
 
 use super::circle_zeros::{SAMPLE_ERROR, SAMPLES, Zeros, samples, zeros};
+use super::closure_lanes::LaneRows;
 use crate::algebra::bounded::{Bounded, Floating, Magnitude};
 use crate::algebra::double_double::DoubleDouble;
 use crate::algebra::ring::Ring;
@@ -25,7 +26,7 @@ use crate::kinematics::motion::Motion;
 
 /// Roundings by which an entry of a constant may be off, relative to 1 and, for a translation, to the longest one of the loop: they
 /// are rounded once from exact numbers, or a few times.
-const CONSTANT: f64 = 32.0;
+pub(super) const CONSTANT: f64 = 32.0;
 
 /// The exact rows of a cut, enclosed, carried over constant 2 of the cut.
 #[derive(Clone, Debug)]
@@ -34,6 +35,8 @@ pub struct EnclosedRows {
     pub cut: Cut,
     values: [MarkedLine<f64>; 8],
     bounds: [MarkedLine<Magnitude>; 8],
+    /// The same as forms on the closing transformation, where that is constant 6 of the cut.
+    pub lanes: Option<LaneRows>,
 }
 
 /// The equations of a cut at a pose in f64, bounded.
@@ -96,8 +99,13 @@ impl EnclosedRows {
     #[must_use]
     pub fn of(cut: Cut, closed: &ClosedLoop<DoubleDouble>) -> Option<Self> {
         let (_, combinations) = with_combinations(&cut.of(closed))?;
-        let rows = rows(&combinations, &cut.of(&enclosed(closed, 0.0)))?.map(|row| row.map(Bounded::in_f64));
-        Some(Self { cut, values: rows.map(|row| row.map(|x| x.value)), bounds: rows.map(|row| row.map(Magnitude::from)) })
+        let view = cut.of(&enclosed(closed, 0.0));
+        let long = rows(&combinations, &view)?;
+        // The closing transformation is constant 6 of these cuts, and no other constant changes with it.
+        let lanes = (cut.constant_index(5) == 5).then(|| LaneRows::new(&long, &view.constants[0].inverse()));
+        let rows = long.map(|row| row.map(Bounded::in_f64));
+        let (values, bounds) = (rows.map(|row| row.map(|x| x.value)), rows.map(|row| row.map(Magnitude::from)));
+        Some(Self { cut, values, bounds, lanes })
     }
 
     /// Returns the equations at a pose, whose closing transformation is off by a matrix of row-sum norm `off` beyond a few

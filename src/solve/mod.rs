@@ -11,6 +11,8 @@ pub mod explorer;
 pub mod francis;
 pub mod hessenberg;
 pub mod kernel;
+pub mod lane_closure;
+pub mod lanes;
 pub mod newton;
 pub mod paths;
 pub mod plane_curve;

@@ -3,13 +3,14 @@
 #![allow(clippy::unwrap_used)]
 
 use looproot::internal::assembly::platform::{PlatformAssembly, PlatformSolver, PlatformWorkspace};
-use looproot::internal::assembly::{Assembly, Roots, Solver, Workspace};
+use looproot::internal::assembly::{Assembly, Margin, Roots, Solver, Workspace};
 use looproot::internal::benchmark::sample::{CHAINS, Set, motions, sample};
 use looproot::internal::catalogue::entry::Kind;
 use looproot::internal::catalogue::{Options, builtin, robot_names};
 use looproot::internal::kinematics::closed_loop::{Layout, OpenLoop};
 use looproot::internal::kinematics::motion::Motion;
 use looproot::internal::kinematics::platform::Platform;
+use looproot_algebra::double_double::DoubleDouble;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::alloc::{GlobalAlloc, Layout as Block, System};
@@ -95,6 +96,28 @@ fn solving_pose_after_pose_allocates_nothing() {
         }
         assert!(solutions >= 200, "{roots:?}: {solutions}");
     }
+}
+
+#[test]
+fn proved_real_lists_allocate_nothing() {
+    let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
+    assembly.modes.reserve(16);
+    let mut proved = 0;
+    for index in 0..10 {
+        let chain = sample(Set::General, 5, index).unwrap().chain;
+        let open: OpenLoop<DoubleDouble> = chain.open_loop(&Layout::of(&chain, None).unwrap()).unwrap();
+        let (solver, closings) = arm(index, 21);
+        for (k, closing) in closings.iter().enumerate() {
+            let gap = solver.gap(closing);
+            let exact = || Some(open.close(&Motion::identity()));
+            let before = requests();
+            let is_proved = solver.solve_real_quickly(&gap, &exact, Margin::Blur(0.0), &mut workspace, &mut assembly);
+            // The first pose prepares the proof.
+            assert!(k == 0 || requests() == before, "arm {index}, pose {k}");
+            proved += usize::from(is_proved);
+        }
+    }
+    assert!(proved >= 200, "{proved}");
 }
 
 #[test]
