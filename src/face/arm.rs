@@ -267,6 +267,7 @@ impl Arm {
     pub fn ik_with(&self, pose: &Matrix, workspace: &mut Workspace) -> Result<Solution> {
         let case = self.case(pose)?;
         workspace.solver.only_real_list = true;
+        workspace.solver.real_first = true;
         let mechanism = self.model.mechanism()?;
         let mut solution = mechanism.solve(&case, Roots::All, &mut workspace.solver, &mut workspace.assembly)?;
         solution.modes.retain(|mode| mode.real);

@@ -176,6 +176,7 @@ impl SingleLoop {
             leaves_fields: workspace.leaves_fields,
             only_lists: workspace.only_lists,
             only_real_list: workspace.only_real_list || roots == Roots::Real,
+            real_first: workspace.real_first,
             tolerance: case.pose.is_some().then_some(tolerance),
             gap: &gap,
             by_cuts: OnceCell::new(),
@@ -361,6 +362,8 @@ struct Question<'a> {
     only_lists: bool,
     /// Whether a list counts as complete once its real solutions are.
     only_real_list: bool,
+    /// As in [`Workspace::real_first`].
+    real_first: bool,
     /// The tolerance of a pose.
     tolerance: Option<Tolerance>,
     gap: &'a Gap,
@@ -505,7 +508,11 @@ impl Question<'_> {
             if self.only_lists { self.prepared.general() } else { self.prepared.bound(&self.of.chain, known).count }
         };
         let SixUnknowns { solver, .. } = self.prepared;
-        if self.roots == Roots::Real && self.has_real_list(workspace, assembly) {
+        // A closed form is as fast, and has all solutions.
+        let is_first = self.real_first && !solver.is_decoupled();
+        if self.roots == Roots::Real && self.has_real_list(workspace, assembly)
+            || is_first && self.has_quick_real_list(workspace, assembly)
+        {
             return of_real_zeros(assembly);
         }
         if self.has_eliminants() {

@@ -1,13 +1,25 @@
 //! Lists of real solutions that the zeros of a determinant prove to be complete.
 
 use super::Question;
-use crate::assembly::{Assembly, Margin, Mode, Workspace, distinct_real};
+use crate::algebra::double_double::DoubleDouble;
+use crate::assembly::{Assembly, Gap, Margin, Mode, Solver, Workspace, distinct_real};
+use crate::kinematics::closed_loop::ClosedLoop;
 use crate::mechanism::unproved::is_settled;
 use crate::verdict::{Code, Proof, Status, Verdict};
 
 /// Where the closure polynomial comes nearer to a double zero than this, in parts of its largest value and of the tolerance, a
 /// configuration may be near the pose: in parts of the largest one, values changed by up to 3000 times what poses did, as measured.
 const NEAR: f64 = 3000.0;
+
+/// One of the ways in which a solver looks for real solutions: see [`Solver::solve_real`].
+type Way = fn(
+    &Solver,
+    &Gap,
+    &dyn Fn() -> Option<ClosedLoop<DoubleDouble>>,
+    Margin,
+    &mut Workspace,
+    &mut Assembly,
+) -> bool;
 
 impl Question<'_> {
     /// Finds the real solutions by the zeros of a determinant, and returns whether these prove them to be all. The list is then that of
@@ -16,12 +28,20 @@ impl Question<'_> {
     /// What is near a pose is found from complex solutions, which are not looked for: either nothing is near, or there is a real
     /// solution and no sign of others.
     pub(super) fn has_real_list(&self, workspace: &mut Workspace, assembly: &mut Assembly) -> bool {
-        let Some(tolerance) = self.tolerance else { return self.solve_real(Margin::Blur(0.0), workspace, assembly) };
-        if self.solve_real(Margin::Tolerance(tolerance), workspace, assembly) {
-            return true;
-        }
+        self.has_quick_real_list(workspace, assembly) || self.by_margins(Solver::solve_real_closely, workspace, assembly)
+    }
+
+    /// As [`Self::has_real_list`], where that takes a few microseconds.
+    pub(super) fn has_quick_real_list(&self, workspace: &mut Workspace, assembly: &mut Assembly) -> bool {
+        self.by_margins(Solver::solve_real_quickly, workspace, assembly)
+    }
+
+    fn by_margins(&self, way: Way, workspace: &mut Workspace, assembly: &mut Assembly) -> bool {
+        let Some(tolerance) = self.tolerance else { return self.real_by(way, Margin::Blur(0.0), workspace, assembly) };
+        // Where both margins prove a list it is the same, and the first one does so nearly always.
         let blur = NEAR * tolerance.angle.max(tolerance.length / self.prepared.solver.unit());
-        self.solve_real(Margin::Blur(blur), workspace, assembly) && !assembly.modes.is_empty()
+        self.real_by(way, Margin::Blur(blur), workspace, assembly) && !assembly.modes.is_empty()
+            || self.real_by(way, Margin::Tolerance(tolerance), workspace, assembly)
     }
 
     /// The verdict on a list of certified solutions, complex ones among them, where real solutions are asked for alone, the verdict at
@@ -39,13 +59,13 @@ impl Question<'_> {
             return None;
         }
         let mut real = Assembly::default();
-        let is_proved = self.solve_real(Margin::Blur(0.0), workspace, &mut real) && real.modes.len() == number;
+        let is_proved = self.real_by(Solver::solve_real, Margin::Blur(0.0), workspace, &mut real) && real.modes.len() == number;
         is_proved.then(|| of_real_zeros(assembly))
     }
 
-    pub(super) fn solve_real(&self, margin: Margin, workspace: &mut Workspace, assembly: &mut Assembly) -> bool {
+    fn real_by(&self, way: Way, margin: Margin, workspace: &mut Workspace, assembly: &mut Assembly) -> bool {
         let exact = || self.prepared.exact(&self.of.chain);
-        !self.only_lists && self.prepared.solver.solve_real(self.gap, &exact, margin, workspace, assembly)
+        !self.only_lists && way(&self.prepared.solver, self.gap, &exact, margin, workspace, assembly)
     }
 }
 
