@@ -1,10 +1,11 @@
 //! Timings on one core, all of one run beside the eigenvalues of one 16 x 16 matrix by faer.
 
 use super::sample::{Set, sample};
-use crate::assembly::{Assembly, Roots, Solver, Workspace};
+use crate::algebra::double_double::DoubleDouble;
+use crate::assembly::{Assembly, Margin, Roots, Solver, Workspace};
 use crate::elimination::pencil::Square;
 use crate::error::Result;
-use crate::kinematics::closed_loop::{Layout, OpenLoop};
+use crate::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop};
 use crate::kinematics::motion::Motion;
 use crate::solve::eigen::EigenWorkspace;
 use crate::solve::francis;
@@ -26,11 +27,14 @@ pub struct Timings {
 /// None in practice, see [`sample`].
 pub fn run(count: u64, repeats: usize, seed: u64) -> Result<Timings> {
     let mut arms: Vec<(OpenLoop<f64>, Motion<f64>)> = Vec::new();
+    let mut exact: Vec<ClosedLoop<DoubleDouble>> = Vec::new();
     for index in 0..count {
         let drawn = sample(Set::General, seed, index)?;
-        let open = drawn.chain.open_loop(&Layout::of(&drawn.chain, None)?)?;
-        let pose = drawn.entry.cases[0].pose.as_ref().map(|p| p.float.inverse());
-        arms.extend(pose.map(|pose| (open, pose)));
+        let layout = Layout::of(&drawn.chain, None)?;
+        let open = drawn.chain.open_loop(&layout)?;
+        let Some(pose) = drawn.entry.cases[0].pose.as_ref().map(|p| p.float.inverse()) else { continue };
+        arms.push((open, pose));
+        exact.push(drawn.chain.open_loop(&layout)?.close(&Motion::identity()));
     }
     let solvers: Vec<Solver> = arms.iter().map(|(open, _)| Solver::prepare(open)).collect();
     let matrices: Vec<Square<f64, 16>> =
@@ -41,6 +45,7 @@ pub fn run(count: u64, repeats: usize, seed: u64) -> Result<Timings> {
         "faer, eigenvalues of 16x16",
         "own eigenvalues of 16x16",
         "real solutions",
+        "real solutions, proved",
         "all 16 solutions",
         "prepare a geometry",
     ]);
@@ -54,8 +59,13 @@ pub fn run(count: u64, repeats: usize, seed: u64) -> Result<Timings> {
         stages.time(2, arms.len(), &mut |k| {
             solvers[k].solve(&arms[k].1, Roots::Real, &mut workspace, &mut assembly);
         });
-        stages.time(3, arms.len(), &mut |k| solvers[k].solve(&arms[k].1, Roots::All, &mut workspace, &mut assembly));
-        stages.time(4, arms.len(), &mut |k| {
+        stages.time(3, arms.len(), &mut |k| {
+            let gap = solvers[k].gap(&arms[k].1);
+            let exact = || Some(exact[k].clone());
+            black_box(solvers[k].solve_real(&gap, &exact, Margin::Blur(0.0), &mut workspace, &mut assembly));
+        });
+        stages.time(4, arms.len(), &mut |k| solvers[k].solve(&arms[k].1, Roots::All, &mut workspace, &mut assembly));
+        stages.time(5, arms.len(), &mut |k| {
             black_box(Solver::prepare(&arms[k].0));
         });
     }
