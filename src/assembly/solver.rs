@@ -384,6 +384,12 @@ impl Solver {
         is_proved
     }
 
+    /// Returns the lengths of the links beside the gap, in units of the loop: a turn of the pose shifts the loop by no more than its angle
+    /// times these.
+    pub fn lever(&self, gap: &Gap) -> f64 {
+        [&self.open.before_gap, &self.open.after_gap, &gap.last].map(length).iter().sum()
+    }
+
     /// Returns a bound of what the closing transformation is off beyond a few roundings, and the part of the largest value of the
     /// determinant below which zeros count as double.
     fn margins(&self, gap: &Gap, margin: Margin) -> [f64; 2] {
@@ -391,8 +397,7 @@ impl Solver {
             // A turn by a small angle changes a row of a rotation by less than twice that angle, and a translation by the angle times
             // the length that is turned: one end, and the translation itself.
             Margin::Tolerance(Tolerance { length: shift, angle }) => {
-                let ends = [&self.open.before_gap, &self.open.after_gap, &gap.last].map(length).iter().sum::<f64>();
-                [gap.rounding + 1.01 * (shift / self.scale + 2.0 * angle * (1.0 + 2.0 * ends)), 0.0]
+                [gap.rounding + 1.01 * (shift / self.scale + 2.0 * angle * (1.0 + 2.0 * self.lever(gap))), 0.0]
             }
             Margin::Blur(blur) => [gap.rounding, blur],
         }

@@ -77,7 +77,7 @@ impl LaneRows {
         };
         let block = |b: usize, of: fn(Bounded<f64>) -> f64| {
             std::array::from_fn(|e| {
-                forms[e].iter().flatten().map(|form| length(&form[BLOCKS[b].clone()], of)).fold(0.0, f64::max)
+                largest(forms[e].iter().flatten().map(|form| length(&form[BLOCKS[b].clone()], of)))
             })
         };
         let value = |e: usize, k1: usize, k2: usize, i: usize| {
@@ -453,6 +453,11 @@ impl<S: Simd> Brackets<S> {
         }
         best
     }
+}
+
+/// Returns the largest of some numbers that are not negative, NaN where one is: nothing is bounded then.
+fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
+    numbers.fold(0.0, |largest, x| if x.is_nan() || largest.is_nan() { f64::NAN } else { largest.max(x) })
 }
 
 #[cfg(test)]

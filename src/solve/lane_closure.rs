@@ -113,10 +113,10 @@ pub fn lane_closure<S: Simd>(constants: &[Motion<f64>; 6], pairs: &Pairs<S>) -> 
     LaneClosure { residual, jacobian, turn, shift, distances }
 }
 
-/// The larger number, NaN where one is.
+/// The larger number, y where that is NaN; where x is, the off-diagonal entries beside it are, and the residuals with them.
 #[inline(always)]
 fn larger<S: Simd>(x: Lanes<S>, y: Lanes<S>) -> Lanes<S> {
-    y.at_most(x).select(x, (!y.below(x)).select(y, x))
+    y.at_most(x).select(x, y)
 }
 
 /// Returns an approximate inverse of a matrix given by its columns, as rows: Gram and Schmidt's triangular factor, inverted.

@@ -39,7 +39,9 @@ impl Question<'_> {
     fn by_margins(&self, way: Way, workspace: &mut Workspace, assembly: &mut Assembly) -> bool {
         let Some(tolerance) = self.tolerance else { return self.real_by(way, Margin::Blur(0.0), workspace, assembly) };
         // Where both margins prove a list it is the same, and the first one does so nearly always.
-        let blur = NEAR * tolerance.angle.max(tolerance.length / self.prepared.solver.unit());
+        // What is far from the joints beside the gap is moved by a turn as by a shift.
+        let angle = tolerance.angle * self.prepared.solver.lever(self.gap).max(1.0);
+        let blur = NEAR * angle.max(tolerance.length / self.prepared.solver.unit());
         self.real_by(way, Margin::Blur(blur), workspace, assembly) && !assembly.modes.is_empty()
             || self.real_by(way, Margin::Tolerance(tolerance), workspace, assembly)
     }
