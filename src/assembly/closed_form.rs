@@ -100,7 +100,8 @@ mod tests {
                     reached = constants.get(k).map_or(reached.clone(), |constant| reached.then_after(constant));
                 }
                 let gap = solver.gap(&reached.inverse());
-                let (mut workspace, mut fast, mut slow) = (Workspace::default(), Assembly::default(), Assembly::default());
+                let (mut workspace, mut fast, mut slow) =
+                    (Workspace::default(), Assembly::default(), Assembly::default());
                 let most = if solver.is_decoupled() { 8 } else { 16 };
                 solver.solve_up_to(&gap, Roots::All, &|_| most, &mut workspace, &mut fast);
                 // No bound is known, so the pencils decide.

@@ -4,10 +4,11 @@
 //! length. Rounding in f64 loses them. Here the same eliminations lead to the same closure polynomial in numbers with enough
 //! digits. All of its roots are found, and each is followed back to all six unknowns, polished and proved.
 
-use super::spherical::canonical;
 use super::mode::{Hits, Mode, are_apart, wrapped};
+use super::spherical::canonical;
 use crate::algebra::determinant::determinant;
 use crate::algebra::ring::{Field, Ring};
+use crate::algebra::sort;
 use crate::algebra::univariate::Univariate;
 use crate::certify::{Refined, exponential, exponential_pair, from_pairs};
 use crate::elimination::coordinate_ring::{self, CoordinateRing};
@@ -176,7 +177,7 @@ fn four_bars<R: Extended>(exact: &ClosedLoop<R>, take: &mut impl FnMut(Vec<Pairs
     }
     let mut bases = [0, 1, 2, 3];
     let twist = |base: usize| form.twist(base + 2).0.to_f64();
-    bases.sort_by(|&a, &b| twist(b).total_cmp(&twist(a)));
+    sort::by(&mut bases, |&a, &b| twist(b).total_cmp(&twist(a)));
     for base in bases {
         let (Some(bar), Some(complex_bar)) = (FourBar::new(&form, base), FourBar::new(&lifted, base)) else { continue };
         let equations = bar.equations();

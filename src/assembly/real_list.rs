@@ -46,7 +46,8 @@ impl Search<'_> {
 
     /// Returns whether so many real solutions are listed, and each is certified and apart from all others.
     fn has_all(&self, number: usize) -> bool {
-        self.assembly.modes.len() == number && distinct_real(&self.closed.variables, &self.assembly.modes) == Some(number)
+        self.assembly.modes.len() == number
+            && distinct_real(&self.closed.variables, &self.assembly.modes) == Some(number)
     }
 }
 
@@ -78,7 +79,14 @@ mod tests {
     fn arm(kind: usize, off: f64, random: &mut ChaCha8Rng) -> Solver {
         let q = PI / 2.0;
         let rows = match kind {
-            0 => [(0.0, q, 0.09), (-0.43, 0.0, 0.0), (-0.39, 0.0, 0.0), (0.0, q, 0.11), (0.0, -q, 0.095), (0.0, 0.0, 0.08)],
+            0 => [
+                (0.0, q, 0.09),
+                (-0.43, 0.0, 0.0),
+                (-0.39, 0.0, 0.0),
+                (0.0, q, 0.11),
+                (0.0, -q, 0.095),
+                (0.0, 0.0, 0.08),
+            ],
             1 => [(0.0, -q, 0.0), (0.43, 0.0, 0.15), (0.02, -q, 0.0), (0.0, q, 0.43), (0.0, -q, 0.0), (0.0, 0.0, 0.1)],
             2 => std::array::from_fn(|_| {
                 let mut value = |size: f64| random.random_range(-size..size);
@@ -134,7 +142,8 @@ mod tests {
             let solver = arm(2, 0.0, &mut random);
             for _ in 0..5 {
                 let gap = gap(&solver, &mut random);
-                let is_proved = solver.solve_real(&gap, &|| Some(stored(&solver)), Margin::Blur(0.0), &mut workspace, &mut real);
+                let is_proved =
+                    solver.solve_real(&gap, &|| Some(stored(&solver)), Margin::Blur(0.0), &mut workspace, &mut real);
                 solver.solve_up_to(&gap, Roots::All, &|_| usize::MAX, &mut workspace, &mut all);
                 if !is_proved || all.total() != 16 {
                     count += usize::from(all.total() == 16);
@@ -143,7 +152,8 @@ mod tests {
                 (proved, count) = (proved + 1, count + 1);
                 assert_eq!(real.modes.len(), all.real(), "arm {number}");
                 for mode in &real.modes {
-                    let is_known = |other: &crate::assembly::Mode| distance(&UNKNOWNS, &mode.unknowns, &other.unknowns) < 1e-7;
+                    let is_known =
+                        |other: &crate::assembly::Mode| distance(&UNKNOWNS, &mode.unknowns, &other.unknowns) < 1e-7;
                     assert!(all.modes.iter().any(is_known), "arm {number}");
                 }
             }
@@ -196,7 +206,13 @@ mod tests {
                 for _ in 0..50 {
                     let solver = arm(kind, off, &mut random);
                     let gap = gap(&solver, &mut random);
-                    let is_proved = solver.solve_real(&gap, &|| Some(stored(&solver)), Margin::Blur(0.0), &mut workspace, &mut real);
+                    let is_proved = solver.solve_real(
+                        &gap,
+                        &|| Some(stored(&solver)),
+                        Margin::Blur(0.0),
+                        &mut workspace,
+                        &mut real,
+                    );
                     proved += usize::from(is_proved);
                     // Solutions are in general one of 2, 4, 6 and 8, and one reaches the pose.
                     assert!(!is_proved || matches!(real.modes.len(), 2 | 4 | 6 | 8), "{} solutions", real.modes.len());

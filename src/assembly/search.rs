@@ -1,11 +1,11 @@
 //! The search for the solutions of one pose: cut after cut, root after root, until nothing is missing.
 
-use super::spherical::canonical;
 use super::limits;
 use super::mode::{Assembly, Hits, Mode, Roots, distance, wrapped};
 use super::prepared::PreparedCut;
 use super::proof::certificate_in_reach;
 use super::shifted::Shifted;
+use super::spherical::canonical;
 use crate::certify::{Refined, certificate, certificate_in_any_frame, refined_certificate_of};
 use crate::closure::half_angle::{HalfAngleForm, half_angle_form};
 use crate::closure::woernle_lee::MarkedLine;
@@ -194,7 +194,9 @@ impl Search<'_> {
                 // Modes without a certificate are double as a rule; the verdict decides later.
                 let likely = 2 * self.assembly.modes.len() - proved;
                 let general = general_degree(self.closed.variables).unwrap_or(0);
-                proved >= general || self.is_full(proved, most) || (all_resolved && (likely >= general || likely >= most(likely)))
+                proved >= general
+                    || self.is_full(proved, most)
+                    || (all_resolved && (likely >= general || likely >= most(likely)))
             }
         }
     }

@@ -1,12 +1,12 @@
 //! A geometry prepared once for many poses.
 
 use super::axis_triples::{AxisTriple, decoupled};
+use super::high_precision::solve_in_high_precision;
 use super::lane_list::{LaneList, LaneWorkspace};
 use super::limits;
 use super::mode::{Assembly, Mode, Roots};
 use super::platform::{PlatformAssembly, PlatformWorkspace};
 use super::prepared::PreparedCut;
-use super::high_precision::solve_in_high_precision;
 use super::search::{AS_IT_IS, Effort, Search};
 use super::shifted::Shifted;
 use crate::algebra::double_double::DoubleDouble;
@@ -421,7 +421,9 @@ impl Solver {
         for (k, prepared) in self.prepared.iter().enumerate() {
             let Some(rows) = prepared.enclosed(exact) else { continue };
             let equations = rows.equations(&closed, 0.0);
-            order.extend([Hidden::First, Hidden::Second].map(|hidden| (equations.zeros(hidden, 0.0).is_none(), k, hidden)));
+            order.extend(
+                [Hidden::First, Hidden::Second].map(|hidden| (equations.zeros(hidden, 0.0).is_none(), k, hidden)),
+            );
         }
         order.sort_by_key(|(fails, ..)| *fails);
         order.into_iter().map(|(_, k, hidden)| (k, hidden)).collect()

@@ -1,10 +1,10 @@
 //! Loops with two spherical joints: the link between them spins freely, and is shown at one angle of that spin.
 
-use super::spherical::{spherical_angles, spherical_rotation, lifted, quarter, transposed};
 use super::limits;
 use super::mode::{Assembly, Roots};
 use super::search::{AS_IT_IS, Effort, Search};
 use super::solver::Workspace;
+use super::spherical::{lifted, quarter, spherical_angles, spherical_rotation, transposed};
 use crate::elimination::spherical_pair::equation;
 use crate::kinematics::closed_loop::{ClosedLoop, SsDyad, Variable};
 use crate::kinematics::link_form::product;
@@ -90,7 +90,8 @@ fn one<S: Scalar>(
     let (cos, sin) = spin.cos_sin_of();
     let spun = product(&product(&frame_s, &Motion::rotation_z(cos, sin).rotation), &transposed(&frame_s));
     let first_spherical = product(&toward, &spun);
-    let tries = quarters.map(|q| spherical_angles(&product(&first_spherical, &transposed(&q.map(|row| row.map(S::from_f64))))));
+    let tries =
+        quarters.map(|q| spherical_angles(&product(&first_spherical, &transposed(&q.map(|row| row.map(S::from_f64))))));
     let chosen = usize::from(tries[1].1 > tries[0].1);
     let (angles, before) = (tries[chosen].0, quarters[chosen]);
     let constant = |rotation: Rotation<f64>| Motion { rotation, translation: [0.0; 3] };

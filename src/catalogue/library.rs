@@ -6,6 +6,7 @@ use super::options::{Chains, Options};
 use super::robots;
 use super::scope::nearest;
 use super::text::{Any, Format, ansatz_from_text, any_from_text, load_text};
+use crate::algebra::sort;
 use crate::error::{Error, Result};
 use include_dir::{Dir, DirEntry, File, include_dir};
 use std::sync::OnceLock;
@@ -92,7 +93,7 @@ fn shelf() -> &'static Shelf {
     SHELF.get_or_init(|| {
         let mut found = Vec::new();
         collect(&LIBRARY, &mut found);
-        found.sort_by(|(a, _), (b, _)| a.cmp(b));
+        sort::by(&mut found, |(a, _), (b, _)| a.cmp(b));
         let (names, files) = found.into_iter().unzip();
         Shelf { names, files }
     })

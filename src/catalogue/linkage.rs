@@ -8,6 +8,7 @@ use super::node::{Field, Node, Value};
 use super::scope::{Scope, Table, nearest};
 use crate::algebra::number::{Angle, Number, Quantity, Reading};
 use crate::algebra::ring::{Ring, exact_cos_sin};
+use crate::algebra::sort;
 use crate::error::Result;
 use crate::kinematics::linkage::{Accuracy, Body, Gaussian, Given, Linkage, LinkageJoint, Pair};
 use rug::{Integer, Rational};
@@ -290,7 +291,7 @@ impl Reader<'_, '_> {
     /// Adds a joint at every point name that several bodies share, between the first of them and each other one.
     fn shared(&mut self, line: usize, ground: usize) -> Result<()> {
         let mut order: Vec<usize> = (0..self.bodies.len()).collect();
-        order.sort_by_key(|body| *body != ground);
+        sort::by_key(&mut order, |body| *body != ground);
         let mut points: Vec<(String, Vec<usize>)> = Vec::new();
         let mut at: HashMap<String, usize> = HashMap::new();
         for body in order {

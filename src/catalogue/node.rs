@@ -1,5 +1,6 @@
 //! The common form of TOML and JSON: values with their line, numbers with their text.
 
+use crate::algebra::sort;
 use crate::error::{Error, Result};
 use jsonc_parser::ast;
 use std::collections::HashSet;
@@ -77,7 +78,7 @@ pub(super) fn from_toml(text: &str, path: &str) -> Result<Node> {
 fn toml_table(table: &DeTable<'_>, lines: &Lines) -> Value {
     // In the order of the file, several keys on one line included.
     let mut pairs: Vec<_> = table.iter().collect();
-    pairs.sort_by_key(|(key, _)| key.span().start);
+    sort::by_key(&mut pairs, |(key, _)| key.span().start);
     let field = |(key, value): &(&_, &toml::Spanned<DeValue<'_>>)| {
         let key: &toml::Spanned<std::borrow::Cow<'_, str>> = key;
         Field {

@@ -8,6 +8,7 @@ use super::scope::{Scope, Table, nearest};
 use super::space_configuration::{SpaceConfiguration, configuration};
 use crate::algebra::number::{Angle, Quantity, Reading};
 use crate::algebra::ring::exact_cos_sin;
+use crate::algebra::sort;
 use crate::error::Result;
 use crate::kinematics::motion::{cross, dot};
 use crate::kinematics::placement::rotation_of;
@@ -256,7 +257,7 @@ fn least_along(direction: &Direction) -> Direction {
 /// Adds a joint at every point name that several bodies share, between the first of them, or the ground, and each other one.
 fn shared(scope: &Scope<'_>, linkage: &mut SphereLinkage, line: usize) -> Result<()> {
     let mut order: Vec<usize> = (0..linkage.bodies.len()).collect();
-    order.sort_by_key(|body| *body != linkage.ground);
+    sort::by_key(&mut order, |body| *body != linkage.ground);
     let mut names: Vec<String> = Vec::new();
     for body in &order {
         for (name, _) in &linkage.bodies[*body].points {

@@ -158,7 +158,15 @@ enum Count {
 
 impl Piece {
     fn count(&self) -> Count {
-        let sign = |x: f64| if x > self.error { 1 } else if x < -self.error { -1 } else { 0 };
+        let sign = |x: f64| {
+            if x > self.error {
+                1
+            } else if x < -self.error {
+                -1
+            } else {
+                0
+            }
+        };
         let (first, last) = (sign(self.coefficients[0]), sign(self.coefficients[SIZE - 1]));
         if first == 0 || last == 0 {
             return Count::Unknown;
@@ -318,7 +326,10 @@ mod tests {
             if !is_apart {
                 continue;
             }
-            let Some(found) = found else { assert!(number > 10, "{number} zeros crowd: {angles:?}"); continue };
+            let Some(found) = found else {
+                assert!(number > 10, "{number} zeros crowd: {angles:?}");
+                continue;
+            };
             assert_eq!(found.angles().len(), number);
             for a in &angles {
                 assert!(found.angles().iter().any(|b| apart(*a, *b) < 1e-5), "{a} of {:?}", found.angles());
@@ -329,7 +340,8 @@ mod tests {
     #[test]
     fn a_wide_bound_hides_no_zeros() {
         // A pair of zeros 0.06 apart, between which the function is 2e-4 of its largest value.
-        let f = |q: f64| [-1.04, -0.22, -0.08, -0.0135, 2.1, 2.93].iter().map(|a| (0.5 * (q - a)).sin()).product::<f64>();
+        let f =
+            |q: f64| [-1.04, -0.22, -0.08, -0.0135, 2.1, 2.93].iter().map(|a| (0.5 * (q - a)).sin()).product::<f64>();
         for digits in 0..40 {
             let error = 10_f64.powf(-0.25 * f64::from(digits) - 3.0);
             let found = zeros(&values(f), &[error; SAMPLES]);

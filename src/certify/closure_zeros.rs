@@ -48,7 +48,8 @@ pub struct EnclosedEquations {
 /// Returns the constants of a loop with bounds of their errors; the closing transformation may be off by a matrix of row-sum norm `off`
 /// beyond a few roundings.
 fn enclosed<T: Floating>(closed: &ClosedLoop<T>, off: f64) -> ClosedLoop<Bounded<T>> {
-    let longest = closed.constants.iter().flat_map(|motion| motion.translation).map(|x| x.in_f64().abs()).fold(0.0, f64::max);
+    let longest =
+        closed.constants.iter().flat_map(|motion| motion.translation).map(|x| x.in_f64().abs()).fold(0.0, f64::max);
     let constant = |j: usize| {
         let beyond = if j == 5 { off } else { 0.0 };
         let motion = &closed.constants[j];
@@ -124,15 +125,15 @@ impl EnclosedRows {
         });
         let view = ClosedLoop { variables: view.variables, constants: values };
         let bounds = ClosedLoop { variables: view.variables, constants: bounds };
-        EnclosedEquations {
-            values: bilinear(&self.values, &view),
-            bounds: bilinear(&self.bounds, &bounds),
-        }
+        EnclosedEquations { values: bilinear(&self.values, &view), bounds: bilinear(&self.bounds, &bounds) }
     }
 }
 
 /// The exact rows of a half-angle form carried over constant 2, enclosed.
-fn rows<T: Floating>(combinations: &Combinations<T>, view: &ClosedLoop<Bounded<T>>) -> Option<[MarkedLine<Bounded<T>>; 8]> {
+fn rows<T: Floating>(
+    combinations: &Combinations<T>,
+    view: &ClosedLoop<Bounded<T>>,
+) -> Option<[MarkedLine<Bounded<T>>; 8]> {
     let annihilators: [[Bounded<T>; SIZE]; 6] =
         corrected(&combinations.annihilators, &combinations.monomials, &left_columns(view))?;
     let back = view.constants[2].inverse();
@@ -166,7 +167,8 @@ impl EnclosedEquations {
     }
 
     fn bounded(&self) -> Bilinear<Bounded<f64>> {
-        let bounded = |e: usize, k1: usize, k2: usize| Bounded::new(self.values[e][k1][k2], self.bounds[e][k1][k2].error());
+        let bounded =
+            |e: usize, k1: usize, k2: usize| Bounded::new(self.values[e][k1][k2], self.bounds[e][k1][k2].error());
         std::array::from_fn(|e| std::array::from_fn(|k1| std::array::from_fn(|k2| bounded(e, k1, k2))))
     }
 }

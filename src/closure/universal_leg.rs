@@ -94,7 +94,8 @@ mod tests {
         let four = |q: &Quaternion<Rational>| [&q.scalar, &q.vector[0], &q.vector[1], &q.vector[2]].map(Clone::clone);
         let times = |z: &Rational, c: &Rational| Rational::from(z * c);
         let [length, axes] = leg().values(&four(&q), &four(&y), times);
-        let rotated = |v: [i32; 3]| q.mul(&Quaternion { scalar: Rational::new(), vector: vector(v) }).mul(&q.conjugate()).vector;
+        let rotated =
+            |v: [i32; 3]| q.mul(&Quaternion { scalar: Rational::new(), vector: vector(v) }).mul(&q.conjugate()).vector;
         let norm = q.norm();
         // N times the vector of the leg, p + R b - a.
         let (b, a) = (rotated([-1, -3, 3]), vector([1, 4, 0]));
@@ -111,7 +112,10 @@ mod tests {
         for k in 0..8 {
             let at = |i: usize| Dual { value: point[i].clone(), epsilon: Rational::from(u8::from(i == k)) };
             let [x, y] = [0, 4].map(|from| std::array::from_fn(|i| at(from + i)));
-            let values = leg().values(&x, &y, |z, c| Dual { value: Rational::from(&z.value * c), epsilon: Rational::from(&z.epsilon * c) });
+            let values = leg().values(&x, &y, |z, c| Dual {
+                value: Rational::from(&z.value * c),
+                epsilon: Rational::from(&z.epsilon * c),
+            });
             assert_eq!(values.map(|value| value.epsilon), [slopes[0][k].clone(), slopes[1][k].clone()], "{k}");
         }
     }

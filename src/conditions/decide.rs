@@ -11,6 +11,7 @@ use crate::algebra::factors::remove_factors;
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Field, Ring};
+use crate::algebra::sort;
 use crate::algebra::text::Names;
 use crate::algebra::univariate::Univariate;
 use crate::catalogue::ansatz::{Ansatz, Link};
@@ -221,7 +222,7 @@ fn oblique_families(theorem: &FourBar, setting: &Setting, families: &mut Vec<Fam
     let implied = |a: &Family, b: &Family| b.conditions.iter().all(|p| a.conditions.contains(p));
     let kept = |k: &usize| (0..bennett.len()).all(|other| other == *k || !implied(&bennett[*k], &bennett[other]));
     let mut kept: Vec<Family> = (0..bennett.len()).filter(kept).map(|k| bennett[k].clone()).collect();
-    kept.sort_by(|a, b| a.name.cmp(&b.name));
+    sort::by(&mut kept, |a, b| a.name.cmp(&b.name));
     families.extend(kept);
     let centre = setting.links.iter().flat_map(|link| [link.a.clone(), link.d.clone()]);
     if let Some(conditions) = setting.conditions(centre) {

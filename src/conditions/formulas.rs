@@ -12,6 +12,7 @@ use crate::algebra::lift;
 use crate::algebra::modp::PRIME_61;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Domain, Field, Ring};
+use crate::algebra::sort;
 use crate::algebra::text::Names;
 use crate::catalogue::ansatz::{Ansatz, Twist};
 use rand::{Rng, SeedableRng};
@@ -162,7 +163,7 @@ fn monomials(variables: usize, degree: u32) -> Vec<Vec<u32>> {
         let longer = |start: &Vec<u32>| (0..=degree).map(|e| [start.as_slice(), &[e]].concat()).collect::<Vec<_>>();
         list = list.iter().flat_map(longer).collect();
     }
-    list.sort_by_key(|exponents| std::cmp::Reverse(exponents.iter().sum::<u32>()));
+    sort::by_key(&mut list, |exponents| std::cmp::Reverse(exponents.iter().sum::<u32>()));
     list
 }
 
@@ -300,7 +301,7 @@ fn relation(samples: &[Sample], angles: usize, length: usize, known: &[usize]) -
         .chain(single.map(|list| (list, products.as_slice())));
     for (list, functions) in tries {
         let mut terms: Vec<_> = list.iter().flat_map(|&k| functions.iter().map(move |f| f.mul(&variable(k)))).collect();
-        terms.sort_by_key(|term| std::cmp::Reverse(term.total_degree()));
+        sort::by_key(&mut terms, |term| std::cmp::Reverse(term.total_degree()));
         if terms.len() + SURPLUS > samples.len() {
             continue;
         }

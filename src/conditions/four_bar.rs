@@ -13,6 +13,7 @@ use crate::algebra::factors::remove_factors;
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Domain, Ring};
+use crate::algebra::sort;
 use crate::derivation::transference::{SpatialPair, Variables, general_pair, half_angle_pair};
 
 type Poly = Polynomial<Int>;
@@ -270,7 +271,7 @@ fn reducible(pair: &SpatialPair<Poly>, mut twists: Vec<TwistFamily>, steps: &mut
     let (mut exceptional, mut excluded) = (Vec::new(), Vec::new());
     // Equal opposite twists come first, the family that is usually meant.
     let usual = [t(0).sub(&t(2)), t(1).sub(&t(3))];
-    twists.sort_by_key(|family| !usual.iter().all(|relation| family.relations.contains(relation)));
+    sort::by_key(&mut twists, |family| !usual.iter().all(|relation| family.relations.contains(relation)));
     for family in &twists {
         let f = with_tangents(&pair.f, &family.tangents);
         let g = with_tangents(&pair.g, &family.tangents);

@@ -7,6 +7,7 @@ use super::search::MobileSlice;
 use super::symmetry::Slice;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::Ring;
+use crate::algebra::sort;
 use crate::catalogue::ansatz::{Ansatz, Twist};
 use rug::Rational;
 use std::collections::BTreeSet;
@@ -58,7 +59,7 @@ pub fn patterns(ansatz: &Ansatz, slices: &[MobileSlice]) -> Vec<TwistPattern> {
             }
         }
     }
-    found.sort_by_key(|pattern| pattern.conditions.len());
+    sort::by_key(&mut found, |pattern| pattern.conditions.len());
     // Skip lengths that belong to a larger family already.
     let larger: Vec<TwistPattern> = found.clone();
     found.retain(|pattern| {

@@ -11,6 +11,7 @@ use crate::algebra::lift;
 use crate::algebra::modp::{ModP, PRIME_61};
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::Ring;
+use crate::algebra::sort;
 use crate::catalogue::ansatz::{Ansatz, Symbols};
 use crate::error::{Error, Result};
 use rand::Rng;
@@ -242,7 +243,7 @@ fn minimal(
     running: &[Place],
     seed: u64,
 ) -> Result<Vec<Polynomial<Rational>>> {
-    relations.sort_by_key(|relation| (relation.total_degree(), relation.len()));
+    sort::by_key(&mut relations, |relation| (relation.total_degree(), relation.len()));
     let mut kept: Vec<Polynomial<Rational>> = Vec::new();
     for relation in relations {
         if !implied::<TRIAL>(ansatz, &kept, &relation, running, seed)? {

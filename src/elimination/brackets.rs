@@ -89,8 +89,9 @@ mod tests {
     fn brackets_give_the_determinant() {
         for seed in 1..20_usize {
             let entry = |l: usize, e: usize| Integer::from((seed * 7919 + (l * 4 + e + 1) * 104_729) % 23) - 11;
-            let columns: [[Integer; 4]; 6] =
-                std::array::from_fn(|l| std::array::from_fn(|e| entry(l, e) * Integer::from(l + 2 * e + 1) % Integer::from(17)));
+            let columns: [[Integer; 4]; 6] = std::array::from_fn(|l| {
+                std::array::from_fn(|e| entry(l, e) * Integer::from(l + 2 * e + 1) % Integer::from(17))
+            });
             let own = determinant(&columns);
             let full = matrix(&columns).map(|row| row.to_vec()).to_vec();
             let other = bareiss(&full);

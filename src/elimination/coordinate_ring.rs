@@ -17,6 +17,7 @@ mod contradiction;
 
 use super::cut::Cut;
 use crate::algebra::ring::{Field, Ring};
+use crate::algebra::sort;
 use crate::closure::woernle_lee::{MarkedLine, SIZE, act, left_columns, right_columns, split, split_inverse};
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use std::collections::{BTreeMap, HashMap};
@@ -134,7 +135,7 @@ fn monomials(kinds: &[Variable; 5], is_zero: [bool; 5], most: u32) -> Vec<Monomi
         let longer = |m: &Monomial| powers.iter().map(|d| m + (d << (8 * unknown))).collect::<Vec<_>>();
         all = all.iter().flat_map(longer).filter(|m| degree(*m) <= most).collect();
     }
-    all.sort_by_key(|m| (std::cmp::Reverse(degree(*m)), *m));
+    sort::by_key(&mut all, |m| (std::cmp::Reverse(degree(*m)), *m));
     all
 }
 

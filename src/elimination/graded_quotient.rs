@@ -7,6 +7,7 @@
 
 use super::border::{Arithmetic, Setting};
 use crate::algebra::modp::Modulus;
+use crate::algebra::sort;
 use crate::closure::study::{Form, left, right};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -98,7 +99,7 @@ impl<'a, A: Arithmetic> GradedQuotient<'a, A> {
         // Large monomials first: z_0 to a high power stays in the basis.
         let order = |m: &Monomial| m.swap_bytes();
         let mut columns: Vec<Monomial> = candidates.into_iter().collect();
-        columns.sort_by_key(order);
+        sort::by_key(&mut columns, order);
         let places: HashMap<Monomial, usize> = columns.iter().enumerate().map(|(k, m)| (*m, k)).collect();
         let mut rows = Vec::new();
         // Every product of an unknown with a candidate of lower degree that is not standard.

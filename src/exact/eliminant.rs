@@ -11,6 +11,7 @@ use crate::algebra::ball::Ball;
 use crate::algebra::determinant::modular as modular_determinant;
 use crate::algebra::drawn::Drawn;
 use crate::algebra::ring::{Domain, Field, Ring};
+use crate::algebra::sort;
 use crate::algebra::univariate::Univariate;
 use crate::closure::half_angle::half_angle_form;
 use crate::elimination::coordinate_ring::{CoordinateRing, Plan};
@@ -91,7 +92,7 @@ pub fn ways<F: Field + Domain>(closed: &ClosedLoop<F>) -> Vec<Way> {
             Some(Way { cut, hidden, unknown, count, distinct })
         })
         .collect();
-    ways.sort_by_key(|way| (way.count, Reverse(way.distinct)));
+    sort::by_key(&mut ways, |way| (way.count, Reverse(way.distinct)));
     ways
 }
 

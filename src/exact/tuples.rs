@@ -4,6 +4,7 @@ use super::missing::{Rest, rest};
 use super::rough::Rough;
 use super::values::{Pair, Value};
 use crate::algebra::ball::Ball;
+use crate::algebra::sort;
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::motion::Motion;
 use std::cell::OnceCell;
@@ -169,7 +170,7 @@ fn meeting(one: &[[Rough; 12]], two: &[[Rough; 12]], mut visit: impl FnMut(usize
     let Some(&widest) = radii.get(radii.len().saturating_sub(1 + radii.len() / 20)) else { return true };
     let is_narrow = |j: &usize| own(&two[*j]).0.is_finite() && own(&two[*j]).1 <= widest;
     let (mut narrow, wide): (Vec<usize>, Vec<usize>) = (0..two.len()).partition(is_narrow);
-    narrow.sort_by(|&i, &j| own(&two[i]).0.total_cmp(&own(&two[j]).0));
+    sort::by(&mut narrow, |&i, &j| own(&two[i]).0.total_cmp(&own(&two[j]).0));
     for (i, entries) in one.iter().enumerate() {
         let (x, radius) = own(entries);
         let reach = (radius + widest) * (1.0 + 1e-14) + x.abs() * 4.0 * f64::EPSILON;
@@ -193,7 +194,7 @@ fn part(entries: &[Rough; 12], number: usize) -> (f64, f64) {
 /// Returns the number of motions in a sample that a coordinate separates.
 fn distinct(all: &[[Rough; 12]], number: usize) -> usize {
     let mut values: Vec<(f64, f64)> = all.iter().step_by(1 + all.len() / SAMPLE).map(|own| part(own, number)).collect();
-    values.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort::by(&mut values, |a, b| a.0.total_cmp(&b.0));
     values.windows(2).filter(|pair| pair[1].0 - pair[0].0 > pair[0].1 + pair[1].1).count()
 }
 
@@ -243,7 +244,7 @@ fn in_loop_order<const BITS: u32>(
 ) -> Vec<Pair<BITS>> {
     let open = (0..6).map(|k| (start + k) % 6).filter(|&j| values[j].is_none());
     let mut placed: Vec<(usize, Pair<BITS>)> = open.zip(rest).collect();
-    placed.sort_by_key(|(place, _)| *place);
+    sort::by_key(&mut placed, |(place, _)| *place);
     placed.into_iter().map(|(_, pair)| pair).collect()
 }
 

@@ -13,6 +13,7 @@ use super::motion::Motion;
 use crate::algebra::enclosure::Enclosure;
 use crate::algebra::number::{Angle, Number};
 use crate::algebra::ring::Ring;
+use crate::algebra::sort;
 use crate::error::Error;
 use rug::Rational;
 
@@ -239,13 +240,15 @@ impl Layout {
                 choice: choice * missing + number,
             })
             .collect();
-        idle.sort_by_key(|idle| idle.behind);
+        sort::by_key(&mut idle, |idle| idle.behind);
         Self { idle, ..self.clone() }
     }
 
     /// Returns the last variable of the spherical joint for a place inside it, so that a spherical joint stays one joint.
     fn outside_spherical(&self, at: usize) -> usize {
-        self.spherical.filter(|spherical| (*spherical..spherical + 2).contains(&at)).map_or(at, |spherical| spherical + 2)
+        self.spherical
+            .filter(|spherical| (*spherical..spherical + 2).contains(&at))
+            .map_or(at, |spherical| spherical + 2)
     }
 
     /// Returns the kind and the joint variable of each of the six unknowns, in loop order; `None` for virtual joints.
@@ -494,7 +497,10 @@ impl Chain {
                 Step::Constant(motion) => last.extend(&motion),
                 Step::Unknown(_) => {
                     index += 1;
-                    let inside = spherical_joints.into_iter().flatten().any(|spherical| index - 1 > spherical && index - 1 < spherical + 3);
+                    let inside = spherical_joints
+                        .into_iter()
+                        .flatten()
+                        .any(|spherical| index - 1 > spherical && index - 1 < spherical + 3);
                     if layout.locked == Some(index - 1) {
                         last.open();
                     } else if !inside {

@@ -127,7 +127,9 @@ mod tests {
 
     #[test]
     fn other_text_is_left_to_others() {
-        for text in ["", "-", ".5", "5.", "1e", "1e+5", "1e100", "nan", "pi", "1/2", "1 mm", "1234567890123456789", "1.2.3"] {
+        for text in
+            ["", "-", ".5", "5.", "1e", "1e+5", "1e100", "nan", "pi", "1/2", "1 mm", "1234567890123456789", "1.2.3"]
+        {
             assert_eq!(Decimal::read(text), None, "{text}");
         }
     }

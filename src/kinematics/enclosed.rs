@@ -1,6 +1,6 @@
 //! Loops whose constants are enclosed, and their rounding.
 
-use super::closed_loop::{ClosedLoop, SsDyad, OpenSsDyad, OpenLoop, Stretch};
+use super::closed_loop::{ClosedLoop, OpenLoop, OpenSsDyad, SsDyad, Stretch};
 use super::motion::Motion;
 use crate::algebra::enclosure::Enclosure;
 use crate::algebra::ring::Ring;

@@ -146,10 +146,9 @@ mod tests {
         let all: Vec<Part> = (0..6).map(Part::Plate).collect();
         let parts = [&[Part::Leg(1), Part::Base(0), Part::Base(4)][..], &all].concat();
         assert_eq!(listed(&parts), "leg 2, base joints 1, 5, all plate joints");
-        assert_eq!([Part::Leg(1), Part::Base(0), Part::Plate(5)].map(|part| part.to_string()), [
-            "leg 2",
-            "base joint 1",
-            "plate joint 6"
-        ]);
+        assert_eq!(
+            [Part::Leg(1), Part::Base(0), Part::Plate(5)].map(|part| part.to_string()),
+            ["leg 2", "base joint 1", "plate joint 6"]
+        );
     }
 }

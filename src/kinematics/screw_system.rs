@@ -5,6 +5,7 @@
 use super::motion::{Vector, cross, dot};
 use crate::algebra::echelon::Echelon;
 use crate::algebra::ring::{Field, Ring};
+use crate::algebra::sort;
 use nalgebra::DMatrix;
 
 /// Squared directions below this share of the largest belong to translations.
@@ -377,7 +378,7 @@ impl ScrewSystem<f64> {
                 pitch: pitches.eigenvalues[j],
             })
             .collect();
-        found.sort_by(|a, b| a.pitch.total_cmp(&b.pitch));
+        sort::by(&mut found, |a, b| a.pitch.total_cmp(&b.pitch));
         (found, still.len())
     }
 }

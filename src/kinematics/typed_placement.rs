@@ -172,7 +172,8 @@ mod tests {
 
     /// Returns whether two motions are equal up to the error that an entry of 0 has in twice the digits.
     fn agree(one: &Motion<f64>, two: &Motion<f64>) -> bool {
-        let entries = |motion: &Motion<f64>| [motion.rotation[0], motion.rotation[1], motion.rotation[2], motion.translation];
+        let entries =
+            |motion: &Motion<f64>| [motion.rotation[0], motion.rotation[1], motion.rotation[2], motion.translation];
         entries(one).iter().flatten().zip(entries(two).iter().flatten()).all(|(x, y)| (x - y).abs() < 1e-30)
     }
 

@@ -4,6 +4,7 @@ use super::assembly::{Asked, Assemblies, Family, FamilyKind, Route, Solution, as
 use super::isotropic::{Value, middle};
 use super::state::{Number, State, number};
 use crate::algebra::ring::Ring;
+use crate::algebra::sort;
 use crate::error::Result;
 use crate::kinematics::linkage::{Accuracy, Given, Linkage, Pair};
 use crate::verdict::{Code, Proof, Status, Verdict};
@@ -102,7 +103,7 @@ pub fn solve_asked(linkage: &Linkage, given: &[Given], accuracy: Accuracy, asked
     };
     let mut modes: Vec<LinkageMode> = found.modes.iter().map(|state| mode(linkage, state)).collect();
     let key = |mode: &LinkageMode| mode.bodies.iter().map(|(angle, _)| angle.re).collect::<Vec<f64>>();
-    modes.sort_by(|a, b| {
+    sort::by(&mut modes, |a, b| {
         let angles = || {
             let pairs = key(a).into_iter().zip(key(b));
             pairs.map(|(x, y)| x.total_cmp(&y)).find(|order| order.is_ne()).unwrap_or(std::cmp::Ordering::Equal)

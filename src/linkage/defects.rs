@@ -1,6 +1,7 @@
 //! Four-bars of a synthesis in the plane, of two dyads or with a given coupler curve: whether one circuit, and one round of it, takes the
 //! coupler through all positions or points in their order. \[Wittenburg2016, 17.14.4\]
 
+use crate::algebra::sort;
 use crate::catalogue::{DyadKind, Space, SynthesisFile, Task};
 use crate::kinematics::motion::Motion;
 use crate::synthesis::path::{NAMES, moving, pivots};
@@ -147,7 +148,7 @@ fn four_bar(source: Source, crank: &Arm, rocker: &Arm) -> Option<FourBar> {
         return None;
     }
     let mut order = [0, 1, 2, 3];
-    order.sort_by(|i, j| lengths[*i].total_cmp(&lengths[*j]));
+    sort::by(&mut order, |i, j| lengths[*i].total_cmp(&lengths[*j]));
     let difference = lengths[order[0]] + lengths[order[3]] - lengths[order[1]] - lengths[order[2]];
     let (class, turns) = if difference.abs() <= CLOSE * total {
         ("change-point", false)

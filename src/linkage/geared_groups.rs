@@ -4,6 +4,7 @@
 //! clusters, as gears join three bodies and no pebble game counts them.
 
 use super::groups::{Group, Groups, Merged, groups};
+use crate::algebra::sort;
 use crate::error::{Error, Result};
 use std::collections::{BTreeSet, HashMap};
 
@@ -70,7 +71,7 @@ fn least(
         list.iter().filter(|(_, of)| of & !set == 0).map(|(number, _)| *number).collect()
     };
     let mut sets: Vec<u32> = (1..1_u32 << roots.len()).collect();
-    sets.sort_by_key(|set| set.count_ones());
+    sort::by_key(&mut sets, |set| set.count_ones());
     let size = |count: usize| i64::try_from(count).unwrap_or(i64::MAX / 8);
     for set in sets {
         let own_gears = within(&wheels, set);

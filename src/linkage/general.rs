@@ -13,6 +13,7 @@ use crate::algebra::disc::Disc;
 use crate::algebra::echelon::Echelon;
 use crate::algebra::modp::ModP;
 use crate::algebra::ring::{Field, Ring};
+use crate::algebra::sort;
 use crate::algebra::univariate::Univariate;
 use crate::exact::{Isolated, isolated_roots};
 use crate::kinematics::linkage::Gaussian;
@@ -212,7 +213,7 @@ fn pencils(exact: &Equations<Isotropic<Gaussian>>) -> Vec<(usize, usize, Pencil<
         .filter_map(|(rest, hidden)| Some((rest, hidden, Pencil::new(&residues, rest, &[Parameter::Turn(hidden)])?)))
         .collect();
     pencils.retain(|(_, _, pencil)| !pencil.sets.is_empty());
-    pencils.sort_by_key(|(_, _, pencil)| pencil.sets.len());
+    sort::by_key(&mut pencils, |(_, _, pencil)| pencil.sets.len());
     pencils
 }
 
@@ -227,7 +228,7 @@ fn ranked(exact: &Equations<Isotropic<Gaussian>>) -> Vec<(usize, usize)> {
             ranked.push((degree, *rest, *hidden));
         }
     }
-    ranked.sort_by_key(|(degree, ..)| *degree);
+    sort::by_key(&mut ranked, |(degree, ..)| *degree);
     ranked.into_iter().map(|(_, rest, hidden)| (rest, hidden)).collect()
 }
 

@@ -2,6 +2,7 @@
 
 use crate::algebra::enclosure::Enclosure;
 use crate::algebra::ring::Ring;
+use crate::algebra::sort;
 use crate::kinematics::linkage::{Gaussian, Linkage, Pair};
 use crate::kinematics::motion::{cross, dot};
 use crate::kinematics::sphere::SphereLinkage;
@@ -81,7 +82,7 @@ pub fn planar(linkage: &Linkage) -> Option<Grashof> {
     };
     let squares: [Rational; 4] = std::array::from_fn(square);
     let mut order = [0, 1, 2, 3];
-    order.sort_by(|a, b| squares[*a].cmp(&squares[*b]));
+    sort::by(&mut order, |a, b| squares[*a].cmp(&squares[*b]));
     let [s, p, q, l] = order.map(|k| &squares[k]);
     let sum = compared([s, l, p, q]);
     // Bodies in the ring: ground, crank, coupler, rocker.

@@ -3,6 +3,7 @@
 
 use super::assembly::{Link, Solution};
 use super::groups::{Group, Merged};
+use crate::algebra::sort;
 use crate::kinematics::linkage::Linkage;
 use std::collections::BTreeSet;
 
@@ -84,7 +85,7 @@ pub fn least_mover(linkage: &Linkage, joints: &[Link], merged: &mut Merged, base
         return None;
     }
     let mut sets: Vec<u32> = (0..1_u32 << others.len()).collect();
-    sets.sort_by_key(|set| set.count_ones());
+    sort::by_key(&mut sets, |set| set.count_ones());
     sets.into_iter().find_map(|set| {
         let is_in = |end: usize| {
             let place = others.iter().position(|other| *other == end);

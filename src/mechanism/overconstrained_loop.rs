@@ -11,6 +11,7 @@ use crate::algebra::drawn::Drawn;
 use crate::algebra::long_float::LongFloat;
 use crate::algebra::number::{Angle, HalfTangent, Number, nearest_f64};
 use crate::algebra::ring::Ring;
+use crate::algebra::sort;
 use crate::assembly::{Assembly, Mode, Roots, Solver, Workspace, by_ring, proof, wrapped};
 use crate::catalogue::entry::{Case, Entry, Input, InputValue};
 use crate::elimination::common_roots::common_roots;
@@ -394,7 +395,7 @@ impl OverconstrainedLoop {
         }
         let verdict = self.verdict(&best, if doubt { None } else { count }, roots);
         let proved = matches!(verdict.status, Status::Complete | Status::Unreachable);
-        best.sort_by(|a, b| b.mode.real.cmp(&a.mode.real).then_with(|| in_order(&a.q, &b.q)));
+        sort::by(&mut best, |a, b| b.mode.real.cmp(&a.mode.real).then_with(|| in_order(&a.q, &b.q)));
         let modes = best.into_iter().map(|Candidate { mode, q, .. }| FullMode {
             certified: proved && mode.certificate.is_some(),
             ..full_mode(&mode, q, &ladder.layout.variables, &self.limits)
@@ -447,7 +448,7 @@ impl OverconstrainedLoop {
                 platform: None,
             });
         }
-        modes.sort_by(|a, b| b.real.cmp(&a.real).then_with(|| in_order(&a.q, &b.q)));
+        sort::by(&mut modes, |a, b| b.real.cmp(&a.real).then_with(|| in_order(&a.q, &b.q)));
         let total: usize = modes.iter().map(|mode| mode.multiplicity).sum();
         let real = modes.iter().filter(|mode| mode.real).map(|mode| mode.multiplicity).sum();
         let (status, reason) = match (self.is_rounded && !clear, real) {
@@ -504,7 +505,7 @@ impl OverconstrainedLoop {
             setting.candidate(mode, &own, NEARLY_ZERO)
         };
         let mut candidates: Vec<Candidate> = assembly.modes.iter().filter_map(candidate).collect();
-        candidates.sort_by(|a, b| a.idle.total_cmp(&b.idle));
+        sort::by(&mut candidates, |a, b| a.idle.total_cmp(&b.idle));
         Ok(candidates)
     }
 

@@ -5,6 +5,7 @@ use super::hull;
 use super::lines::{axis, distance, minus};
 use super::pose::{Pose, pose_of};
 use super::{Body, Connection, ConnectionKind, Part, Point, Poser, Scene, Trace};
+use crate::algebra::sort;
 use crate::kinematics::joint::{JointKind, Variable};
 use crate::kinematics::motion::{Motion, cross, dot};
 
@@ -120,7 +121,7 @@ fn different(points: &[Point], size: f64) -> Vec<Point> {
 /// The corners of the polygon about points of a plane, or those of a broken line through points in a line.
 fn outline(points: &[Point], size: f64) -> Vec<Point> {
     let mut sorted = different(points, size);
-    sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    sort::by(&mut sorted, |a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let side = |a: &Point, b: &Point, c: &Point| {
         (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
     };
@@ -173,7 +174,7 @@ fn around(points: &[Point]) -> Vec<Point> {
     let mean: Point = std::array::from_fn(|k| sorted.iter().map(|p| p[k]).sum());
     let first = cross(&mean, &sorted[0]);
     let second = cross(&mean, &first);
-    sorted.sort_by(|a, b| {
+    sort::by(&mut sorted, |a, b| {
         let angle = |p: &Point| dot(p, &second).atan2(dot(p, &first));
         angle(a).total_cmp(&angle(b))
     });

@@ -6,6 +6,7 @@
 use super::dense::{inverse, times};
 use crate::algebra::ring::Ring;
 use crate::algebra::series::Series;
+use crate::algebra::sort;
 use crate::kinematics::closed_loop::{ClosedLoop, OpenLoop, Variable};
 use crate::kinematics::motion::{Motion, cross};
 use nalgebra::SMatrix;
@@ -264,7 +265,7 @@ impl Curve {
         let mut a = self.here(at).jacobian;
         // Idle variables last, and left out.
         let mut columns = [0, 1, 2, 3, 4, 5, 6];
-        columns.sort_by_key(|&j| self.idle[j]);
+        sort::by_key(&mut columns, |&j| self.idle[j]);
         for line in &mut a {
             *line = columns.map(|j| line[j]);
         }
@@ -328,7 +329,7 @@ impl Curve {
         let jacobian = self.here(at).jacobian;
         let matrix = SMatrix::<f64, 6, 7>::from_fn(|i, j| if self.idle[j] { 0.0 } else { jacobian[i][j] });
         let mut values: Vec<f64> = matrix.singular_values().iter().copied().collect();
-        values.sort_by(|a, b| b.total_cmp(a));
+        sort::by(&mut values, |a, b| b.total_cmp(a));
         values[moving - 1] > CLEAR * values[0]
     }
 

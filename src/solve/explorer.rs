@@ -5,6 +5,7 @@
 
 use super::curve::{Curve, Point};
 use super::walk::{Trace, apart, dot, norm};
+use crate::algebra::sort;
 use nalgebra::{SMatrix, SVector, Vector6};
 
 /// The Jacobian of seven variables, columns of idle ones zero.
@@ -130,7 +131,7 @@ impl<'a> Explorer<'a> {
         let svd = self.matrix(at).transpose().svd(true, false);
         let values = svd.singular_values;
         let mut order: [usize; 6] = std::array::from_fn(|k| k);
-        order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
+        sort::by(&mut order, |&a, &b| values[b].total_cmp(&values[a]));
         let least = RANK.max(10.0 * self.within) * values[order[0]];
         let rank = order.iter().filter(|&&k| values[k] > least).count();
         let mut vectors: Vec<Point> = Vec::with_capacity(self.unknowns);
@@ -185,7 +186,7 @@ impl<'a> Explorer<'a> {
             last = closing.defect;
             let svd = self.matrix(at).svd(true, true);
             let mut values: Vec<f64> = svd.singular_values.iter().copied().collect();
-            values.sort_by(|a, b| b.total_cmp(a));
+            sort::by(&mut values, |a, b| b.total_cmp(a));
             // The cut keeps as many directions as the solution set leaves transversal ones.
             let cut = values[full_rank.min(6) - 1].max(1e-9 * values[0]) * 0.999;
             let Ok(step) = svd.solve(&Vector6::from(closing.residual), cut) else { break };
@@ -228,7 +229,7 @@ impl<'a> Explorer<'a> {
             .filter(|(set, _)| set.count_ones() < 7)
             .collect();
         // The largest freedom first, of the fewest joints.
-        sets.sort_by_key(|(set, freedom)| (std::cmp::Reverse(*freedom), set.count_ones()));
+        sort::by_key(&mut sets, |(set, freedom)| (std::cmp::Reverse(*freedom), set.count_ones()));
         let mut chosen: Vec<usize> = Vec::new();
         let mut found: Vec<Piece> = Vec::new();
         for (set, dimension) in sets {

@@ -65,7 +65,6 @@ impl<R: Field + Copy> Hessenberg<R> {
         }
         leading.pop().unwrap_or_else(Univariate::zero)
     }
-
 }
 
 impl<R: Extended> Hessenberg<R> {

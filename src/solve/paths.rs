@@ -70,15 +70,10 @@ pub trait Family<const N: usize> {
     }
 
     /// Takes a Runge-Kutta step.
-    fn predicted(
-        &self,
-        path: impl Fn(f64) -> [Complex<f64>; 2],
-        v: &Point<N>,
-        s: f64,
-        step: f64,
-    ) -> Option<Point<N>> {
+    fn predicted(&self, path: impl Fn(f64) -> [Complex<f64>; 2], v: &Point<N>, s: f64, step: f64) -> Option<Point<N>> {
         let patch = v.map(|z| z.conj());
-        let ahead = |slope: &Point<N>, part: f64| -> Point<N> { std::array::from_fn(|k| v[k] + slope[k] * (part * step)) };
+        let ahead =
+            |slope: &Point<N>, part: f64| -> Point<N> { std::array::from_fn(|k| v[k] + slope[k] * (part * step)) };
         let one = self.velocity(path(s), v, &patch)?;
         let two = self.velocity(path(s + 0.5 * step), &ahead(&one, 0.5), &patch)?;
         let three = self.velocity(path(s + 0.5 * step), &ahead(&two, 0.5), &patch)?;

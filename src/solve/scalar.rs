@@ -4,7 +4,7 @@
 use crate::algebra::double_double::DoubleDouble;
 use crate::algebra::elementary::{exp, sin_cos, small_sinh};
 use crate::algebra::long_float::LongNumber;
-use crate::algebra::ring::{Field, Ring};
+use crate::algebra::ring::{Field, Ring, formula};
 use num_complex::Complex;
 
 /// The operations on a number that linear algebra and error bounds need.
@@ -223,7 +223,7 @@ impl<R: Extended> Number for Complex<R> {
     type Real = R;
     const UNIT_ROUNDOFF: f64 = R::UNIT_ROUNDOFF;
     fn times(self, x: R) -> Self {
-        Complex::new(self.re.mul(&x), self.im.mul(&x))
+        formula::<R, _>(|| Complex::new(self.re.mul(&x), self.im.mul(&x)))
     }
     fn halved(self) -> Self {
         Complex::new(self.re.halved(), self.im.halved())

@@ -5,6 +5,7 @@
 //! together and there are none beyond, the input turns back: the halving ends at that limit position.
 
 use super::{End, Range, SweepVerdict};
+use crate::algebra::sort;
 use crate::error::{Error, Result};
 use crate::verdict::{Code, Status};
 use rayon::prelude::*;
@@ -479,7 +480,7 @@ fn sorted<M: Clone>(
 ) -> (Vec<AssemblyBranch>, Vec<AssemblyLimit<M>>) {
     let sign = (range.to - range.from).signum();
     let mut order: Vec<usize> = (0..limits.len()).collect();
-    order.sort_by(|a, b| (sign * limits[*a].input).total_cmp(&(sign * limits[*b].input)));
+    sort::by(&mut order, |a, b| (sign * limits[*a].input).total_cmp(&(sign * limits[*b].input)));
     for end in branches.iter_mut().flat_map(|branch| [&mut branch.begin, &mut branch.end]) {
         if let End::Limit(limit) = end {
             *limit = order.iter().position(|own| own == limit).unwrap_or(*limit);

@@ -4,6 +4,7 @@ use super::bridge::{Bridge, Fate, apart};
 use super::sample::Sample;
 use super::track::Fold;
 use super::{Range, Span};
+use crate::algebra::sort;
 use crate::assembly::wrapped;
 use crate::kinematics::closed_loop::Variable;
 use crate::mechanism::InputCurve;
@@ -191,7 +192,7 @@ impl Web {
 /// Puts the limit positions in the order of the sweep.
 fn sort_limits(branches: &mut [Branch], limits: &mut Vec<Limit>) {
     let mut order: Vec<usize> = (0..limits.len()).collect();
-    order.sort_by(|a, b| limits[*a].input.total_cmp(&limits[*b].input));
+    sort::by(&mut order, |a, b| limits[*a].input.total_cmp(&limits[*b].input));
     let sorted = order.iter().map(|index| limits[*index].clone()).collect();
     *limits = sorted;
     for end in branches.iter_mut().flat_map(|branch| [&mut branch.begin, &mut branch.end]) {
@@ -304,7 +305,7 @@ impl Found<'_> {
                     let circuit = owner[sample][mode].map_or(0, |branch| branches[branch].circuit);
                     for pair in folds.windows(2) {
                         let mut ends = [self.limit(index, pair[0]), self.limit(index, pair[1])];
-                        ends.sort_by(|a, b| self.limits[*a].input.total_cmp(&self.limits[*b].input));
+                        sort::by(&mut ends, |a, b| self.limits[*a].input.total_cmp(&self.limits[*b].input));
                         let [one, two] = if forward { ends } else { [ends[1], ends[0]] };
                         let [from, to] = [one, two].map(|limit| self.limits[limit].input);
                         let (begin, end) = (End::Limit(one), End::Limit(two));

@@ -2,6 +2,7 @@
 
 use super::sample::{Sample, Swept};
 use super::track::{Destination, Fold, Track, follow};
+use crate::algebra::sort;
 use crate::assembly::{Assembly, Workspace, wrapped};
 use crate::error::Result;
 use crate::kinematics::closed_loop::Variable;
@@ -82,7 +83,7 @@ pub(super) fn apart(curve: &InputCurve, a: &Point, b: &Point) -> f64 {
 pub(super) fn mode_at(curve: &InputCurve, sample: &Sample, point: &Point) -> Option<usize> {
     let distances = sample.points.iter().map(|mode| apart(curve, mode, point));
     let mut order: Vec<(usize, f64)> = distances.enumerate().collect();
-    order.sort_by(|a, b| a.1.total_cmp(&b.1));
+    sort::by(&mut order, |a, b| a.1.total_cmp(&b.1));
     match order.as_slice() {
         [(mode, distance)] if *distance < SAME => Some(*mode),
         [(mode, distance), (_, second), ..] if *distance < SAME && *distance < 1e-2 * second => Some(*mode),

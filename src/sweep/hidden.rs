@@ -6,6 +6,7 @@
 
 use super::bridge::apart;
 use super::sample::{Pair, Sample, Swept};
+use crate::algebra::sort;
 use crate::assembly::{Assembly, Workspace};
 use crate::error::Result;
 
@@ -63,7 +64,7 @@ pub(super) fn between(
         }
     }
     let forward = high.input > low.input;
-    found.sort_by(|a, b| if forward { a.input.total_cmp(&b.input) } else { b.input.total_cmp(&a.input) });
+    sort::by(&mut found, |a, b| if forward { a.input.total_cmp(&b.input) } else { b.input.total_cmp(&a.input) });
     Ok(found)
 }
 

@@ -3,6 +3,7 @@
 
 use super::Range;
 use super::sample::Sample;
+use crate::algebra::sort;
 use crate::kinematics::closed_loop::Variable;
 use std::f64::consts::TAU;
 
@@ -103,7 +104,7 @@ impl Range {
         }
         wanted.retain(|(input, _)| self.contains(*input));
         let forward = self.to > self.from;
-        wanted.sort_by(|a, b| if forward { a.0.total_cmp(&b.0) } else { b.0.total_cmp(&a.0) });
+        sort::by(&mut wanted, |a, b| if forward { a.0.total_cmp(&b.0) } else { b.0.total_cmp(&a.0) });
         wanted
     }
 

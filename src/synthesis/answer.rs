@@ -7,6 +7,7 @@ use super::equations::Wanted;
 use super::sample::sample;
 use super::solved::{Found, Point};
 use crate::algebra::disc::Disc;
+use crate::algebra::sort;
 use crate::catalogue::SynthesisFile;
 use crate::error::{Error, Result};
 use crate::verdict::{Code, Proof, Status, Verdict};
@@ -129,7 +130,7 @@ fn list(wanted: &Wanted, points: &[Point], proof: Proof, maker: Maker) -> Answer
     degrees.sort_unstable();
     degrees.dedup();
     let mut modes: Vec<Mode> = points.iter().map(|point| mode(wanted, point, maker)).collect();
-    modes.sort_by(|one, other| other.is_real.cmp(&one.is_real).then_with(|| by_numbers(&one.dyad, &other.dyad)));
+    sort::by(&mut modes, |one, other| other.is_real.cmp(&one.is_real).then_with(|| by_numbers(&one.dyad, &other.dyad)));
     let certified = modes.iter().filter(|mode| mode.is_certified()).count();
     let at_infinity = wanted.general_count().map_or(0, |general| general.saturating_sub(complex));
     let mut reason = match complex {
@@ -235,7 +236,7 @@ impl Answer {
             let square: f64 = numbers.iter().zip(wanted).map(|(x, y)| (x - y) * (x - y)).sum();
             if mode.is_real { square } else { f64::INFINITY }
         };
-        self.modes.sort_by(|one, other| distance(one).total_cmp(&distance(other)));
+        sort::by(&mut self.modes, |one, other| distance(one).total_cmp(&distance(other)));
         Ok(())
     }
 }

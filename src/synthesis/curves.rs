@@ -117,7 +117,7 @@ fn curve(of: &'static str, name: &'static str, polynomial: &Plane) -> Option<Cur
             terms.push(([i, j], c.clone()));
         }
     }
-    terms.sort_by_key(|([i, j], _)| std::cmp::Reverse((i + j, *i)));
+    crate::algebra::sort::by_key(&mut terms, |([i, j], _)| std::cmp::Reverse((i + j, *i)));
     let ([i, j], first) = terms.first()?;
     let degree = i + j;
     if degree == 0 {

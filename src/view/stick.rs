@@ -1,6 +1,7 @@
 //! Stick figures: a mechanism as a flat drawing, for papers and for pages without WebGL.
 
 use super::tracks::{Kind, Track, list, tracks};
+use crate::algebra::sort;
 use crate::report::picture::escaped;
 use crate::scene::{Point, Pose, apply};
 use serde_json::Value;
@@ -124,7 +125,7 @@ impl Drawing {
                 }
             }
         }
-        drawing.strokes.sort_by(|a, b| a.depth.total_cmp(&b.depth));
+        sort::by(&mut drawing.strokes, |a, b| a.depth.total_cmp(&b.depth));
         drawing
     }
 

@@ -5,11 +5,11 @@ use looproot::internal::catalogue::entry::Entry;
 use looproot::internal::catalogue::{Any, LinkageFile, Options, load, load_any};
 use looproot::internal::derivation::derive;
 use looproot::internal::kinematics::closed_loop::Variable;
-use rug::Rational;
 use looproot::internal::sweep::{
     Cells, EntryCase, Label, LinkageCase, MapWanted, Range, Subject, cell_map, cells, sweep,
 };
 use looproot::internal::verdict::{Code, Proof};
+use rug::Rational;
 use std::f64::consts::PI;
 
 fn entry(name: &str) -> Entry {

@@ -81,6 +81,8 @@ impl<T: Floating> Bounded<T> {
 }
 
 impl<T: Floating> Ring for Bounded<T> {
+    const LIGHT: bool = T::LIGHT;
+
     fn zero() -> Self {
         Self::new(T::zero(), 0.0)
     }

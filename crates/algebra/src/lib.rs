@@ -44,6 +44,7 @@ pub mod resultant;
 pub mod ring;
 mod rounded_chain;
 pub mod series;
+pub mod sort;
 pub mod sturm;
 pub mod surd;
 pub mod text;

@@ -1,4 +1,6 @@
 //! Floating-point numbers of 384 or 960 bits that are copied like machine numbers, for problems beyond 31 digits.
+//!
+//! Their operations are calls, which take a small part of an operation: in place they are a kilobyte of machine code each.
 
 use super::ring::{Field, Ring};
 use rug::{Integer, Rational, integer::Order};
@@ -170,6 +172,7 @@ impl<const LIMBS: usize> Ring for LongNumber<LIMBS> {
     fn one() -> Self {
         Self::from(1.0)
     }
+    #[inline(never)]
     fn add(&self, other: &Self) -> Self {
         if self.is_zero() {
             return *other;
@@ -183,6 +186,7 @@ impl<const LIMBS: usize> Ring for LongNumber<LIMBS> {
     fn sub(&self, other: &Self) -> Self {
         self.add(&other.neg())
     }
+    #[inline(never)]
     fn mul(&self, other: &Self) -> Self {
         if self.is_zero() || other.is_zero() {
             return Self::ZERO;
@@ -247,6 +251,7 @@ fn low_word(x: u128) -> u64 {
 }
 
 impl<const LIMBS: usize> Field for LongNumber<LIMBS> {
+    #[inline(never)]
     fn inverse(&self) -> Option<Self> {
         if self.is_zero() {
             return None;

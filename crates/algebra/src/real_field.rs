@@ -9,6 +9,7 @@ use super::number_field::{Algebraic, NumberField};
 use super::ring::{Field, Ring};
 use super::surd::{Closed, Surd};
 use super::univariate::Univariate;
+use crate::sort;
 use rug::float::Constant;
 use rug::{Float, Integer, Rational};
 use std::collections::BTreeSet;
@@ -296,7 +297,7 @@ fn conjugate_cosines(order: u32) -> Vec<Float> {
 /// Returns the least distance of two of these numbers, infinite for one alone.
 fn least_distance(numbers: &[Float]) -> Float {
     let mut sorted = numbers.to_vec();
-    sorted.sort_by(Float::total_cmp);
+    sort::by(&mut sorted, Float::total_cmp);
     let distances = sorted.windows(2).map(|pair| Float::with_val(BITS, &pair[1] - &pair[0]));
     distances.min_by(Float::total_cmp).unwrap_or_else(|| Float::with_val(BITS, f64::INFINITY))
 }

@@ -103,9 +103,25 @@ pub trait Ring: Clone + PartialEq + Debug {
     /// Whether elements enclose numbers that rationals only approximate.
     const ENCLOSES: bool = false;
 
+    /// Whether an operation takes a few machine instructions, so that a formula of a few operations is shorter than a call. See
+    /// [`formula`].
+    const LIGHT: bool = false;
+
     /// Number of binary digits of a ring of floating-point numbers; `None` in all other rings. Quantities derived from the data of
     /// a mechanism are computed exactly, or enclosed, and rounded to these digits once.
     const DIGITS: Option<u32> = None;
+}
+
+/// Runs a formula of a few operations of a ring. Over light rings it is repeated wherever it is used, because the poses of an arm pass
+/// through it; over all others it exists once and is called, because one product there costs more than the call.
+#[inline(always)]
+pub fn formula<R: Ring, T>(compute: impl FnOnce() -> T) -> T {
+    if R::LIGHT { compute() } else { called(compute) }
+}
+
+#[inline(never)]
+fn called<T>(compute: impl FnOnce() -> T) -> T {
+    compute()
 }
 
 /// Returns `((1 - t^2)/(1 + t^2), 2t/(1 + t^2))`, cosine and sine of an angle from its rational half-angle tangent t.
@@ -172,6 +188,7 @@ pub trait Field: Ring {
 
 impl Ring for f64 {
     const DIGITS: Option<u32> = Some(f64::MANTISSA_DIGITS);
+    const LIGHT: bool = true;
 
     fn zero() -> Self {
         0.0
@@ -247,6 +264,8 @@ impl Field for f64 {
 }
 
 impl<T: Ring> Ring for Complex<T> {
+    const LIGHT: bool = T::LIGHT;
+
     fn zero() -> Self {
         Complex { re: T::zero(), im: T::zero() }
     }
@@ -255,18 +274,18 @@ impl<T: Ring> Ring for Complex<T> {
     }
     #[inline(always)]
     fn add(&self, other: &Self) -> Self {
-        Complex { re: self.re.add(&other.re), im: self.im.add(&other.im) }
+        formula::<T, _>(|| Complex { re: self.re.add(&other.re), im: self.im.add(&other.im) })
     }
     #[inline(always)]
     fn sub(&self, other: &Self) -> Self {
-        Complex { re: self.re.sub(&other.re), im: self.im.sub(&other.im) }
+        formula::<T, _>(|| Complex { re: self.re.sub(&other.re), im: self.im.sub(&other.im) })
     }
     #[inline(always)]
     fn mul(&self, other: &Self) -> Self {
-        Complex {
+        formula::<T, _>(|| Complex {
             re: self.re.mul(&other.re).sub(&self.im.mul(&other.im)),
             im: self.re.mul(&other.im).add(&self.im.mul(&other.re)),
-        }
+        })
     }
     #[inline(always)]
     fn neg(&self) -> Self {
@@ -300,8 +319,10 @@ impl<T: Field> Field for Complex<T> {
     #[inline(always)]
     fn inverse(&self) -> Option<Self> {
         // Over f64 this can overflow for entries beyond 1e150, which scaled mechanisms never reach.
-        let square = self.re.mul(&self.re).add(&self.im.mul(&self.im)).inverse()?;
-        Some(Complex { re: self.re.mul(&square), im: self.im.neg().mul(&square) })
+        formula::<T, _>(|| {
+            let square = self.re.mul(&self.re).add(&self.im.mul(&self.im)).inverse()?;
+            Some(Complex { re: self.re.mul(&square), im: self.im.neg().mul(&square) })
+        })
     }
     #[inline(always)]
     fn pivot_size(&self) -> f64 {

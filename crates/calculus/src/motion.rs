@@ -1,7 +1,7 @@
 //! Rigid motions over any ring: a rotation matrix and a translation, acting on column points.
 
 use looproot_algebra::number::Angle;
-use looproot_algebra::ring::Ring;
+use looproot_algebra::ring::{Ring, formula};
 
 /// A vector of the space.
 pub type Vector<R> = [R; 3];
@@ -21,17 +21,19 @@ pub struct Motion<R> {
 /// Returns `x . y`.
 #[inline(always)]
 pub fn dot<R: Ring>(x: &Vector<R>, y: &Vector<R>) -> R {
-    x[0].mul(&y[0]).add(&x[1].mul(&y[1])).add(&x[2].mul(&y[2]))
+    formula::<R, _>(|| x[0].mul(&y[0]).add(&x[1].mul(&y[1])).add(&x[2].mul(&y[2])))
 }
 
 /// Returns `x x y`.
 #[inline(always)]
 pub fn cross<R: Ring>(x: &Vector<R>, y: &Vector<R>) -> Vector<R> {
-    [
-        x[1].mul(&y[2]).sub(&x[2].mul(&y[1])),
-        x[2].mul(&y[0]).sub(&x[0].mul(&y[2])),
-        x[0].mul(&y[1]).sub(&x[1].mul(&y[0])),
-    ]
+    formula::<R, _>(|| {
+        [
+            x[1].mul(&y[2]).sub(&x[2].mul(&y[1])),
+            x[2].mul(&y[0]).sub(&x[0].mul(&y[2])),
+            x[0].mul(&y[1]).sub(&x[1].mul(&y[0])),
+        ]
+    })
 }
 
 impl<R: Ring> Motion<R> {
@@ -99,26 +101,30 @@ impl<R: Ring> Motion<R> {
     /// Returns `rotation v`, for directions.
     #[inline(always)]
     pub fn rotate(&self, v: &Vector<R>) -> Vector<R> {
-        std::array::from_fn(|i| dot(&self.rotation[i], v))
+        formula::<R, _>(|| std::array::from_fn(|i| dot(&self.rotation[i], v)))
     }
 
     /// Returns the image of a point.
     #[inline(always)]
     pub fn apply(&self, p: &Vector<R>) -> Vector<R> {
-        let rotated = self.rotate(p);
-        std::array::from_fn(|i| rotated[i].add(&self.translation[i]))
+        formula::<R, _>(|| {
+            let rotated = self.rotate(p);
+            std::array::from_fn(|i| rotated[i].add(&self.translation[i]))
+        })
     }
 
     /// Returns `self * other`, which applies `other` first.
     #[must_use]
     #[inline(always)]
     pub fn then_after(&self, other: &Self) -> Self {
-        let column = |j: usize| -> Vector<R> { std::array::from_fn(|k| other.rotation[k][j].clone()) };
-        let columns: [Vector<R>; 3] = std::array::from_fn(column);
-        Self {
-            rotation: std::array::from_fn(|i| std::array::from_fn(|j| dot(&self.rotation[i], &columns[j]))),
-            translation: self.apply(&other.translation),
-        }
+        formula::<R, _>(|| {
+            let column = |j: usize| -> Vector<R> { std::array::from_fn(|k| other.rotation[k][j].clone()) };
+            let columns: [Vector<R>; 3] = std::array::from_fn(column);
+            Self {
+                rotation: std::array::from_fn(|i| std::array::from_fn(|j| dot(&self.rotation[i], &columns[j]))),
+                translation: self.apply(&other.translation),
+            }
+        })
     }
 
     /// Returns the inverse motion, by the transpose of the rotation.

@@ -1,8 +1,8 @@
 //! Poses of platforms whose base and moving platform are affine images of the same points, from the algebra of their
 //! rotations in 384-bit arithmetic.
 
-use super::prepared::Frame;
 use super::high_precision::{combined, framed, upper_roots};
+use super::prepared::Frame;
 use crate::algebra::long_float::LongNumber;
 use crate::algebra::ring::{Field, Ring};
 use crate::closure::study::{Form, Four, left, scalar};

@@ -121,7 +121,9 @@ impl Homotopy<'_> {
         for circle in 0..CIRCLES {
             if circle > 0 {
                 let smaller = SMALLER * s;
-                let Some(next) = self.follow(|s| arc(self.bend, s), &v, s, smaller, MOST_STEPS) else { return End::Lost };
+                let Some(next) = self.follow(|s| arc(self.bend, s), &v, s, smaller, MOST_STEPS) else {
+                    return End::Lost;
+                };
                 (v, s) = (next, smaller);
                 // By now a path that only passed near another solution has left it.
                 if let Some(end) = self.regular_end(&v, s) {

@@ -2,16 +2,17 @@
 
 use super::affine::affine_starts;
 use super::exact::exact_modes;
+use super::high_precision::starts;
 use super::homotopy::{End, Homotopy};
 use super::mode::{PlatformAssembly, Route};
 use super::prepared::{Chart, Frame, LegNumbers, Squares};
 use super::reflection::Reflection;
-use super::high_precision::starts;
 use super::search::{Found, Search, Source, real_parts, take_in, tell};
 use super::self_motion::{curve, project, self_motion};
 use super::triangle::TriangleRoute;
 use crate::algebra::long_float::{LongFloat, LongNumber};
 use crate::algebra::number::nearest_f64;
+use crate::algebra::sort;
 use crate::assembly::Roots;
 use crate::closure::study::Leg;
 use crate::elimination::affine_platform::AffineRelation;
@@ -157,7 +158,8 @@ impl PlatformSolver {
         assembly.unresolved = search.unresolved();
         let more = proved(assembly).saturating_sub(before);
         if more > 0 {
-            (assembly.by_high_precision, assembly.high_precision_bits) = (assembly.by_high_precision + more, 64 * LIMBS);
+            (assembly.by_high_precision, assembly.high_precision_bits) =
+                (assembly.by_high_precision + more, 64 * LIMBS);
         }
         if let Some(reflection) = &self.reflection {
             reflection.mark(&mut assembly.modes);
@@ -228,7 +230,7 @@ impl PlatformSolver {
         let mut proved = std::mem::take(&mut workspace.found);
         proved.retain(|found| found.certificate.is_some());
         let radius = |found: &Found| found.certificate.map_or(f64::INFINITY, |c| c.radius);
-        proved.sort_by(|a, b| radius(a).total_cmp(&radius(b)));
+        sort::by(&mut proved, |a, b| radius(a).total_cmp(&radius(b)));
         for found in proved {
             take_in(&mut workspace.found, found);
         }

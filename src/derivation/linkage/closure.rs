@@ -5,6 +5,7 @@ use crate::algebra::int::Int;
 use crate::algebra::modular::determinant;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Domain, Ring};
+use crate::algebra::sort;
 use crate::algebra::univariate::Univariate;
 use crate::derivation::equation::primitive;
 use crate::error::{Error, Result};
@@ -345,7 +346,7 @@ fn of_group(
         let ends = |joint: &usize| linkage.joints[*joint].of;
         group.joints.iter().any(|joint| ends(joint).contains(&body) && ends(joint).contains(&against))
     };
-    ranked.sort_by_key(|(degree, rows, body, _)| (*degree, *rows, !is_output(*body)));
+    sort::by_key(&mut ranked, |(degree, rows, body, _)| (*degree, *rows, !is_output(*body)));
     let mut list: Vec<GroupPolynomial> = Vec::new();
     for (_, rows, body, is_inverse) in ranked {
         if rows > SMALL && !list.is_empty() {

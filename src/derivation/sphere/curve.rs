@@ -12,6 +12,7 @@ use crate::algebra::int::Int;
 use crate::algebra::number::nearest_f64;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Domain, Ring};
+use crate::algebra::sort;
 use crate::error::{Error, Result};
 use crate::kinematics::motion::{Vector, cross, dot};
 use crate::kinematics::sphere::{Direction, SphereLinkage};
@@ -307,7 +308,7 @@ fn special(unknowns: usize, equations: &[Equation]) -> Option<Vec<SpecialPoint>>
             list.push(SpecialPoint { at, real: root.is_real(), multiplicity: part.multiplicity });
         }
     }
-    list.sort_by(|a, b| {
+    sort::by(&mut list, |a, b| {
         let key = |point: &SpecialPoint| point.at.map(|z| z.re);
         let order = key(a).into_iter().zip(key(b)).map(|(x, y)| x.total_cmp(&y)).find(|order| order.is_ne());
         b.real.cmp(&a.real).then(order.unwrap_or(std::cmp::Ordering::Equal))

@@ -7,6 +7,7 @@ use super::values::{mode, real_point};
 use crate::algebra::disc::Disc;
 use crate::algebra::drawn;
 use crate::algebra::groebner::{Basis, FiniteRing};
+use crate::algebra::sort;
 use crate::error::{Error, Result};
 use crate::kinematics::motion::{Motion, Vector};
 use crate::kinematics::space::{SpaceGiven, SpaceLinkage};
@@ -149,7 +150,7 @@ fn by_paths(
 /// Real assemblies first.
 fn sort(modes: &mut [SpaceMode]) {
     let key = |mode: &SpaceMode| mode.bodies.iter().map(|body| body.translation[0].re).collect::<Vec<f64>>();
-    modes.sort_by(|a, b| {
+    sort::by(modes, |a, b| {
         let order = key(a).into_iter().zip(key(b)).map(|(x, y)| x.total_cmp(&y)).find(|order| order.is_ne());
         b.real.cmp(&a.real).then(order.unwrap_or(std::cmp::Ordering::Equal))
     });
@@ -194,7 +195,7 @@ fn counted(
 /// The number of assemblies of some bodies, with multiplicity; `None` where it is not finite or takes too much work.
 fn count(linkage: &SpaceLinkage, given: &[SpaceGiven], within: &[usize]) -> Option<usize> {
     let mut order: Vec<usize> = within.to_vec();
-    order.sort_by_key(|body| *body != linkage.ground);
+    sort::by_key(&mut order, |body| *body != linkage.ground);
     let system = System::of(linkage, given, &order).ok()?;
     let basis = Basis::of(system.unknowns, &system.equations, EFFORT)?;
     match basis.dimension() {

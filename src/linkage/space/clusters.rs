@@ -1,5 +1,6 @@
 //! Bodies that are one by what is given, and the least sets of them that are rigid by count.
 
+use crate::algebra::sort;
 use crate::error::{Error, Result};
 use crate::kinematics::motion::Motion;
 use crate::kinematics::space::{Known, SpaceGiven, SpaceLinkage, SpacePair};
@@ -148,7 +149,7 @@ pub fn groups(linkage: &SpaceLinkage, given: &[SpaceGiven], list: &[Cluster]) ->
             .collect();
         let rod_bits = (0..list.len()).filter(|k| list[*k].is_rod).fold(0, |set, k| set | of(k));
         let mut sets: Vec<u32> = (1..1_u32 << roots.len()).filter(|set| set & rod_bits == 0 && set.count_ones() > 1).collect();
-        sets.sort_by_key(|set| set.count_ones());
+        sort::by_key(&mut sets, |set| set.count_ones());
         let rigid = sets.into_iter().find(|set| {
             let inner = |of: u32| of & !set == 0 && of.count_ones() == 2;
             let taken = links.iter().filter(|(_, of)| inner(*of)).map(|(taken, _)| *taken).sum::<usize>()

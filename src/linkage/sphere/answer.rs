@@ -5,6 +5,7 @@ use crate::algebra::disc::Disc;
 use crate::algebra::groebner::{Basis, Equation};
 use crate::algebra::number::nearest_f64;
 use crate::algebra::ring::Ring;
+use crate::algebra::sort;
 use crate::error::{Error, Result};
 use crate::kinematics::motion::{Vector, cross, dot};
 use crate::kinematics::sphere::{SphereGiven, SphereLinkage};
@@ -88,7 +89,7 @@ pub fn solve(linkage: &SphereLinkage, given: &[SphereGiven], exact: bool) -> Res
         Some(dimension) => (Vec::new(), dimension),
     };
     let key = |mode: &SphereMode| mode.joints.iter().map(|z| z.re).collect::<Vec<f64>>();
-    modes.sort_by(|a, b| {
+    sort::by(&mut modes, |a, b| {
         let order = key(a).into_iter().zip(key(b)).map(|(x, y)| x.total_cmp(&y)).find(|order| order.is_ne());
         b.real.cmp(&a.real).then(order.unwrap_or(std::cmp::Ordering::Equal))
     });

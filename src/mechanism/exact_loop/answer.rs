@@ -8,6 +8,7 @@ use super::measure::measure;
 use super::outcome::{Outcome, Point, Points, dimension_modulo_prime};
 use crate::algebra::disc::Disc;
 use crate::algebra::drawn;
+use crate::algebra::sort;
 use crate::assembly::wrapped;
 use crate::catalogue::entry::Case;
 use crate::error::Result;
@@ -142,7 +143,7 @@ impl Question<'_> {
 
     /// Returns the verdict on a list that has all of `distinct` distinct solutions.
     fn listed(&self, mut modes: Vec<FullMode>, distinct: usize, [count, real]: [usize; 2], reason: String) -> Answer {
-        modes.sort_by(in_order);
+        sort::by(&mut modes, in_order);
         let (status, code) = match (count, real) {
             (0, _) => (Status::Unreachable, Code::NoSolution),
             (_, 0) => (Status::Unreachable, Code::ExactRootsMatched),

@@ -4,6 +4,7 @@ use super::answer::{Answer, in_order, nearest};
 use super::roots::Root;
 use crate::algebra::disc::Disc;
 use crate::algebra::ring::Ring;
+use crate::algebra::sort;
 use crate::algebra::univariate::Univariate;
 use crate::assembly::ss_dyad::farthest_axis;
 use crate::elimination::spherical_pair::equation;
@@ -69,7 +70,7 @@ impl SsDyadQuestion<'_> {
         }
         let mode = |(pair, multiplicity): &([Value; 2], usize)| self.mode(pair, *multiplicity, is_point);
         let mut modes: Vec<FullMode> = roots.iter().filter_map(mode).collect();
-        modes.sort_by(in_order);
+        sort::by(&mut modes, in_order);
         let real = roots.iter().any(|([one, other], _)| one.is_real() && other.is_real());
         let count: usize = roots.iter().map(|(_, multiplicity)| multiplicity).sum();
         let (status, code, because) = match (count, real) {

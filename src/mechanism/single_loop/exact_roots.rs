@@ -1,6 +1,7 @@
 //! Verdicts by the roots of the exact eliminants, where f64 does not prove a list.
 
 use super::{ExactSolution, Question};
+use crate::algebra::sort;
 use crate::assembly::{Assembly, Mode, Roots, are_apart};
 use crate::exact::{Known, OverRationals, Resolution, resolve};
 use crate::kinematics::closed_loop::Variable;
@@ -145,7 +146,7 @@ fn known(mode: &Mode) -> Known {
 
 /// Real modes first, then by their unknowns.
 fn in_order(modes: &mut [Mode]) {
-    modes.sort_by(|a, b| {
+    sort::by(modes, |a, b| {
         let key = |m: &Mode| m.unknowns.map(|z| (z.re, z.im));
         b.real.cmp(&a.real).then_with(|| key(a).partial_cmp(&key(b)).unwrap_or(std::cmp::Ordering::Equal))
     });

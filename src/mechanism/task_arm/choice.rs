@@ -1,5 +1,6 @@
 //! The conditions of a pose imposed on an arm of few joints, and the joints held in an arm of many.
 
+use crate::algebra::sort;
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::forward::{Forward, Twist};
 use crate::kinematics::motion::{Motion, Vector};
@@ -72,7 +73,7 @@ impl Trial {
             })
             .filter(|(score, _)| *score > REGULAR)
             .collect();
-        scored.sort_by(|a, b| b.0.total_cmp(&a.0));
+        sort::by(&mut scored, |a, b| b.0.total_cmp(&a.0));
         scored.into_iter().map(|(_, chosen)| chosen).collect()
     }
 
@@ -84,7 +85,7 @@ impl Trial {
             .map(|chosen| (self.score(task, &[], &chosen), chosen))
             .filter(|(score, _)| *score > REGULAR)
             .collect();
-        scored.sort_by(|a, b| b.0.total_cmp(&a.0));
+        sort::by(&mut scored, |a, b| b.0.total_cmp(&a.0));
         scored.into_iter().map(|(_, chosen)| chosen).collect()
     }
 

@@ -170,11 +170,7 @@ fn phases<S: Scalar>([constant, cos, sin]: &[S; 3]) -> Phases<S> {
 
 /// `from . V(q) to` as a row over (1, cos, sin), of vectors V turns about the third axis.
 fn between<S: Scalar>(from: &[S; 3], to: &[S; 3]) -> [S; 3] {
-    [
-        from[2].mul(&to[2]),
-        from[0].mul(&to[0]).add(&from[1].mul(&to[1])),
-        from[1].mul(&to[0]).sub(&from[0].mul(&to[1])),
-    ]
+    [from[2].mul(&to[2]), from[0].mul(&to[0]).add(&from[1].mul(&to[1])), from[1].mul(&to[0]).sub(&from[0].mul(&to[1]))]
 }
 
 /// The angle that turns one planar vector into another one of its length; `None` where that is 0.

@@ -5,13 +5,13 @@
 //! a sum of a row in the angle of A and one in that of C. Where neither angle can be taken out of both, one is found from a
 //! quartic and the other is linear in it.
 
-use crate::solve::scalar::Scalar;
-use crate::solve::separated::{Angle, angles_of};
 use super::{
     C64, Candidates, DEPENDENT, Pair, Rotated, angle_between, axes, between, complex, phases, rotated, rotated_back,
     turned, vector,
 };
 use crate::kinematics::motion::Motion;
+use crate::solve::scalar::Scalar;
+use crate::solve::separated::{Angle, angles_of};
 
 /// A row over (cos, sin).
 type Planar = [f64; 2];
@@ -123,8 +123,7 @@ impl<'a> Parallel<'a> {
     }
 
     fn linear<S: Scalar>(&self, rows: &[[f64; 3]; 2], known: Pair<S>, found: &mut Candidates) {
-        let [cos, sin] =
-            rows.map(|row| S::from_f64(row[0]).add(&known.0.times(row[1])).add(&known.1.times(row[2])));
+        let [cos, sin] = rows.map(|row| S::from_f64(row[0]).add(&known.0.times(row[1])).add(&known.1.times(row[2])));
         self.second([known, (cos, sin)], found);
     }
 
@@ -142,9 +141,8 @@ impl<'a> Parallel<'a> {
     /// The three angles of the plane from their product M: `D d E e F = (f A a B b C c)^-1`.
     fn plane<S: Scalar>(&self, arm: &[Pair<S>; 3], found: &mut Candidates) {
         let inverse = super::before(&self.last, &self.own.arm(arm));
-        let [x, y] = [0, 1].map(|j| {
-            (0..3).fold(S::zero(), |sum, i| sum.sub(&inverse.rotation[i][j].mul(&inverse.translation[i])))
-        });
+        let [x, y] = [0, 1]
+            .map(|j| (0..3).fold(S::zero(), |sum, i| sum.sub(&inverse.rotation[i][j].mul(&inverse.translation[i]))));
         let turned = [inverse.rotation[0][0], inverse.rotation[0][1]];
         let [d, e] = [3, 4].map(|k| self.own.constant(k).translation);
         let back = rotated_back(self.own.constant(3), &[d[0], d[1], 0.0]);

@@ -5,13 +5,13 @@
 //! are independent across the axis, B is found from both of them and C from a quartic, else a combination is free of B.
 //! \[Pieper1968\]
 
-use crate::solve::scalar::Scalar;
-use crate::solve::separated::{Angle, angles_of};
 use super::{
     C64, Candidates, DEPENDENT, Pair, Rotated, angle_between, axes, between, complex, phases, rotated, rotated_back,
     turned, vector,
 };
 use crate::kinematics::motion::Motion;
+use crate::solve::scalar::Scalar;
+use crate::solve::separated::{Angle, angles_of};
 
 /// A row over (1, cos, sin).
 type Row = [f64; 3];

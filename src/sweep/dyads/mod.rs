@@ -9,6 +9,7 @@ mod form;
 use super::Range;
 use super::assemblies::{AssemblySample, Link, Proved};
 use crate::algebra::ring::Ring;
+use crate::algebra::sort;
 use crate::error::Result;
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::linkage::{Given, Linkage, Pair};
@@ -192,7 +193,7 @@ impl<M: Clone> Proof<M> {
         let sides = sides.filter(|input| is_in(*input)).map(|input| (input, None));
         let mut inputs: Vec<(f64, Option<usize>)> = steps.chain(sides).collect();
         let forward = range.to > range.from;
-        inputs.sort_by(|a, b| if forward { a.0.total_cmp(&b.0) } else { b.0.total_cmp(&a.0) });
+        sort::by(&mut inputs, |a, b| if forward { a.0.total_cmp(&b.0) } else { b.0.total_cmp(&a.0) });
         if !self.criticals.is_turn() {
             return Some(inputs);
         }

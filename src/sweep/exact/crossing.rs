@@ -3,6 +3,7 @@
 use super::node::Node;
 use super::output::{Chart, Critical, Event, Output};
 use super::plane_curve::{PlaneCurve, Rectangle, sign_changes};
+use crate::algebra::sort;
 use crate::algebra::univariate::Univariate;
 use crate::assembly::wrapped;
 use crate::kinematics::closed_loop::Variable;
@@ -133,7 +134,7 @@ fn in_order(output: &Output, chart: &Chart, interval: [&Rational; 2], ends: [Vec
         Variable::Translation => sheet.value,
     };
     for list in [&mut from, &mut to] {
-        list.sort_by(|x, y| key(x).total_cmp(&key(y)));
+        sort::by(list, |x, y| key(x).total_cmp(&key(y)));
     }
     let mut bridge = blank(from.len(), to.len());
     for (x, y) in from.iter().zip(&to) {
@@ -157,7 +158,7 @@ fn free_angle(chart: &Chart, [low, high]: [&Rational; 2], from: &[Sheet], to: &[
     let last = angles[0] + TAU;
     let next = angles.iter().skip(1).copied().chain([last]);
     let mut gaps: Vec<(f64, f64)> = angles.iter().zip(next).map(|(x, y)| (y - x, f64::midpoint(*x, y))).collect();
-    gaps.sort_by(|x, y| y.0.total_cmp(&x.0));
+    sort::by(&mut gaps, |x, y| y.0.total_cmp(&x.0));
     gaps.iter().take(GAPS).find_map(|(_, angle)| {
         let tangent = (wrapped(*angle) / 2.0).tan();
         let t = Rational::from_f64(tangent)?;

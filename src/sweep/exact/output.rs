@@ -8,6 +8,7 @@ use crate::algebra::polynomial::Polynomial;
 use crate::algebra::real_roots::{RealRoot, roots_of_factors};
 use crate::algebra::resultant::resultant;
 use crate::algebra::ring::{Domain, Ring};
+use crate::algebra::sort;
 use crate::algebra::univariate::Univariate;
 use crate::kinematics::closed_loop::Variable;
 use crate::verdict::Code;
@@ -277,6 +278,6 @@ fn criticals(
         }
     }
     add(&content.square_free_decomposition(), &|_| Event::Locked);
-    criticals.sort_by(|a, b| a.value.total_cmp(&b.value));
+    sort::by(&mut criticals, |a, b| a.value.total_cmp(&b.value));
     criticals
 }

@@ -4,6 +4,7 @@ use super::certificate::{Affine, BITS, Certified};
 use super::class::{moving_pivots, third_pivot};
 use crate::algebra::disc::Disc;
 use crate::algebra::ring::Ring;
+use crate::algebra::sort;
 use crate::synthesis::answer::Mode;
 use crate::synthesis::dyad::{Dyad, Making};
 use rug::{Float, Rational};
@@ -63,7 +64,7 @@ pub fn mode(certified: &Certified, origin: &[Rational; 2], unit: &Rational) -> O
             pivots.reverse();
         }
     }
-    three.sort_by(|one, other| size(one).total_cmp(&size(other)));
+    sort::by(&mut three, |one, other| size(one).total_cmp(&size(other)));
     let i = Disc::point(Float::new(1), Float::with_val(1, 1));
     let half = Disc::of(&(unit.clone() / 2), BITS);
     let [x, y] = origin.each_ref().map(|q| Disc::of(q, BITS));

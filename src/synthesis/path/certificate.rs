@@ -10,6 +10,7 @@ use super::homotopy::{FourBar, PLACES, Places};
 use crate::algebra::disc::Disc;
 use crate::algebra::interval::Interval;
 use crate::algebra::ring::Ring;
+use crate::algebra::sort;
 use crate::solve::dense::{inverse, times};
 use num_complex::Complex;
 use rug::{Float, Rational};
@@ -153,7 +154,7 @@ pub fn are_distinct(classes: &[[Disc; 3]]) -> bool {
         [middle - radius, middle + radius]
     };
     let mut sorted: Vec<([f64; 2], &[Disc; 3])> = classes.iter().map(|class| (bounds(class), class)).collect();
-    sorted.sort_by(|(one, _), (other, _)| one[0].total_cmp(&other[0]));
+    sort::by(&mut sorted, |(one, _), (other, _)| one[0].total_cmp(&other[0]));
     sorted.iter().enumerate().all(|(k, ([_, end], own))| {
         let near = sorted[k + 1..].iter().take_while(|([begin, _], _)| begin <= end);
         near.into_iter().all(|(_, other)| own.iter().zip(*other).any(|(one, other)| one.sub(other).is_not_zero()))

@@ -2,6 +2,7 @@
 
 use super::curve::UNKNOWNS;
 use crate::algebra::ring::{Field, Ring};
+use crate::algebra::sort;
 use num_complex::Complex;
 
 /// A four-bar with the numbers of its class.
@@ -53,7 +54,7 @@ pub fn distinct(four_bars: impl IntoIterator<Item = [Complex<f64>; UNKNOWNS]>) -
     };
     let mut sorted: Vec<(usize, Numbered)> =
         four_bars.into_iter().filter_map(with_numbers).enumerate().collect();
-    sorted.sort_by(|(_, (_, one)), (_, (_, other))| one[0].re.total_cmp(&other[0].re));
+    sort::by(&mut sorted, |(_, (_, one)), (_, (_, other))| one[0].re.total_cmp(&other[0].re));
     let mut is_new = vec![true; sorted.len()];
     for (k, (place, (_, own))) in sorted.iter().enumerate() {
         let size = own.each_ref().map(|z| CLOSE * (1.0 + z.norm()));
@@ -64,7 +65,7 @@ pub fn distinct(four_bars: impl IntoIterator<Item = [Complex<f64>; UNKNOWNS]>) -
         }
     }
     let mut kept: Vec<_> = sorted.into_iter().filter(|(place, _)| is_new[*place]).collect();
-    kept.sort_by_key(|(place, _)| *place);
+    sort::by_key(&mut kept, |(place, _)| *place);
     kept.into_iter().map(|(_, (v, _))| v).collect()
 }
 

@@ -18,6 +18,7 @@ pub use turns::{moving, pivots};
 use super::answer::{Answer, Family, Mode, by_numbers, undecided};
 use crate::algebra::disc::Disc;
 use crate::algebra::drawn;
+use crate::algebra::sort;
 use crate::catalogue::SynthesisFile;
 use crate::solve::paths::{Family as _, arc};
 use crate::verdict::{Code, Proof, Status, Verdict};
@@ -92,7 +93,7 @@ impl Problem {
     fn modes(&self, certified: &[Certified]) -> Vec<Mode> {
         let mut modes: Vec<Mode> =
             certified.par_iter().filter_map(|own| answer::mode(own, &self.origin, &self.unit)).collect();
-        modes.sort_by(|one, other| other.is_real.cmp(&one.is_real).then_with(|| by_numbers(&one.dyad, &other.dyad)));
+        sort::by(&mut modes, |one, other| other.is_real.cmp(&one.is_real).then_with(|| by_numbers(&one.dyad, &other.dyad)));
         modes
     }
 }

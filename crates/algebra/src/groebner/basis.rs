@@ -3,6 +3,7 @@
 use super::coefficient::Coefficient;
 use super::monomial::{MOST_VARIABLES, Monomial};
 use super::polynomial::{Equation, Polynomial, Work, remainder, subtract};
+use crate::sort;
 use rug::Integer;
 
 /// The reduced Gröbner basis of an ideal: over the rationals, with integer coefficients, or modulo a prime.
@@ -47,7 +48,7 @@ impl<C: Coefficient> Basis<C> {
         for equation in equations {
             given.extend(Polynomial::normalised(C::terms(equation.terms())?));
         }
-        given.sort_by_key(|p| (p.leading(), p.terms.len()));
+        sort::by_key(&mut given, |p| (p.leading(), p.terms.len()));
         for polynomial in given {
             let work: Work<C> = polynomial.terms.into_iter().collect();
             making.admit(work)?;
@@ -181,7 +182,7 @@ impl<C: Coefficient> Making<C> {
         let mut effort = self.effort;
         let mut minimal: Vec<Polynomial<C>> =
             self.elements.into_iter().zip(self.is_old).filter(|(_, old)| !old).map(|(p, _)| p).collect();
-        minimal.sort_by_key(Polynomial::leading);
+        sort::by_key(&mut minimal, Polynomial::leading);
         let mut elements: Vec<Polynomial<C>> = Vec::new();
         for polynomial in minimal {
             let below: Vec<&Polynomial<C>> = elements.iter().collect();

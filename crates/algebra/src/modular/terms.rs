@@ -3,6 +3,7 @@
 use super::lattice::Lattice;
 use crate::int::Int;
 use crate::polynomial::Polynomial;
+use crate::sort;
 use rug::Integer;
 
 /// A polynomial in several variables with integer coefficients, term by term, in any order.
@@ -55,7 +56,7 @@ pub(super) fn descending<'a>(
 ) -> Sorted<'a> {
     let mut terms: Vec<_> = terms.collect();
     let key = |e: &'a [u32]| parameters.iter().map(move |&k| e[k]);
-    terms.sort_by(|(a, e, _), (b, f, _)| (b.cmp(a)).then_with(|| key(f).cmp(key(e))));
+    sort::by(&mut terms, |(a, e, _), (b, f, _)| (b.cmp(a)).then_with(|| key(f).cmp(key(e))));
     let distinct = terms.windows(2).all(|t| t[0].0 != t[1].0 || t[0].1 != t[1].1);
     assert!(distinct, "no two terms of a polynomial have the same exponents");
     Sorted {

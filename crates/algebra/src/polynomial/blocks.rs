@@ -157,33 +157,34 @@ impl Grid {
     pub(super) const fn leading(&self) -> usize {
         self.leading
     }
+
+    /// Returns the fields of these variables in each word of a monomial.
+    fn masks(&self) -> Vec<u64> {
+        (0..self.packing.words()).map(|word| self.packing.leading(word, self.leading)).collect()
+    }
 }
 
-/// Terms in blocks that agree in the leading variables.
-pub(super) struct Blocks<'a, K, C> {
-    /// The monomial of each block in the leading variables.
-    pub(super) keys: Vec<K>,
+/// Sorted terms in blocks that agree in the leading variables, without their coefficients.
+pub(super) struct Blocks {
     /// The start of each block, and the number of terms.
     starts: Vec<usize>,
     /// The cell of each term.
     pub(super) cells: Vec<usize>,
-    /// The coefficients of the terms.
-    pub(super) coefficients: &'a [C],
 }
 
-impl<'a, K: Key, C> Blocks<'a, K, C> {
+impl Blocks {
     /// Returns the blocks of sorted terms.
-    pub(super) fn new(grid: &Grid, monomials: &[u64], coefficients: &'a [C]) -> Self {
+    pub(super) fn new(grid: &Grid, monomials: &[u64]) -> Self {
         let packing = grid.packing;
-        let masks: Vec<u64> = (0..packing.words()).map(|word| packing.leading(word, grid.leading)).collect();
+        let masks = grid.masks();
         let strides: Vec<((usize, u32), usize)> =
             grid.strides.iter().enumerate().map(|(k, &stride)| (packing.place(grid.leading + k), stride)).collect();
-        let (mut keys, mut starts, mut cells) = (Vec::new(), Vec::new(), Vec::with_capacity(coefficients.len()));
+        let count = monomials.len() / packing.words();
+        let (mut starts, mut cells) = (Vec::new(), Vec::with_capacity(count));
         let mut previous: Option<&[u64]> = None;
         for (i, monomial) in monomials.chunks_exact(packing.words()).enumerate() {
             let same = previous.is_some_and(|p| p.iter().zip(monomial).zip(&masks).all(|((a, b), m)| (a ^ b) & m == 0));
             if !same {
-                keys.push(K::read(monomial, &masks));
                 starts.push(i);
             }
             previous = Some(monomial);
@@ -192,15 +193,19 @@ impl<'a, K: Key, C> Blocks<'a, K, C> {
             };
             cells.push(strides.iter().map(cell).sum());
         }
-        starts.push(coefficients.len());
-        Self { keys, starts, cells, coefficients }
+        starts.push(count);
+        Self { starts, cells }
     }
-}
 
-impl<K, C> Blocks<'_, K, C> {
+    /// Returns the monomial of each block in the leading variables, for the terms that the blocks were made of.
+    pub(super) fn keys<K: Key>(&self, grid: &Grid, monomials: &[u64]) -> Vec<K> {
+        let (words, masks) = (grid.words(), grid.masks());
+        self.starts[..self.len()].iter().map(|start| K::read(&monomials[start * words..], &masks)).collect()
+    }
+
     /// Returns the number of blocks.
     pub(super) fn len(&self) -> usize {
-        self.keys.len()
+        self.starts.len() - 1
     }
 
     /// Returns the terms of a block.
@@ -209,24 +214,45 @@ impl<K, C> Blocks<'_, K, C> {
     }
 }
 
-/// The sums of products that fall into the cells of a box.
-struct Collector<A> {
+/// Two factors: the blocks of each, and its coefficients.
+pub(super) type Factors<'a, C> = [(&'a Blocks, &'a [C]); 2];
+
+/// What happens to the coefficients of a product while a heap orders its monomials. The heap sees no coefficients, so that it exists
+/// once for all rings.
+trait Collect {
+    /// Adds the product of a block of the left factor and one of the right factor.
+    fn add(&mut self, left: usize, right: usize);
+    /// Empties the cells in this range, and appends those whose sums are not zero, decreasing.
+    fn empty(&mut self, lowest: usize, highest: usize, cells: &mut Vec<usize>);
+}
+
+/// The sums of products that fall into the cells of a box. With `MARKED`, cells are found by marks, which pays if most are empty.
+struct Collector<'a, C, A, const MARKED: bool> {
+    factors: Factors<'a, C>,
     sums: Vec<A>,
     /// A bit for each cell that was hit, if they are marked.
     marks: Vec<u64>,
+    /// Takes the sums that are not zero, in the order of their cells.
+    take: &'a mut dyn FnMut(A),
 }
 
-impl<A> Collector<A> {
-    /// Adds the product of two blocks.
+impl<C, A: Accumulator<C>, const MARKED: bool> Collector<'_, C, A, MARKED> {
     #[inline(always)]
-    fn add<K, C, const MARKED: bool>(&mut self, left: &Blocks<K, C>, i: usize, right: &Blocks<K, C>, j: usize)
-    where
-        A: Accumulator<C>,
-    {
-        let range = right.block(j);
-        let (cells, coefficients) = (&right.cells[range.clone()], &right.coefficients[range]);
-        for k in left.block(i) {
-            let (start, a) = (left.cells[k], &left.coefficients[k]);
+    fn pass(&mut self, cell: usize, cells: &mut Vec<usize>) {
+        if !self.sums[cell].vanishes() {
+            cells.push(cell);
+            (self.take)(std::mem::replace(&mut self.sums[cell], A::empty()));
+        }
+    }
+}
+
+impl<C, A: Accumulator<C>, const MARKED: bool> Collect for Collector<'_, C, A, MARKED> {
+    fn add(&mut self, left: usize, right: usize) {
+        let [(left_terms, left_coefficients), (right_terms, right_coefficients)] = self.factors;
+        let range = right_terms.block(right);
+        let (cells, coefficients) = (&right_terms.cells[range.clone()], &right_coefficients[range]);
+        for k in left_terms.block(left) {
+            let (start, a) = (left_terms.cells[k], &left_coefficients[k]);
             let sums = &mut self.sums[start..];
             for (&cell, b) in cells.iter().zip(coefficients) {
                 sums[cell].add(a, b);
@@ -237,29 +263,67 @@ impl<A> Collector<A> {
             }
         }
     }
+
+    fn empty(&mut self, lowest: usize, highest: usize, cells: &mut Vec<usize>) {
+        if MARKED {
+            for word in (lowest / 64..=highest / 64).rev() {
+                let mut marks = std::mem::take(&mut self.marks[word]);
+                while marks != 0 {
+                    let bit = 63 - marks.leading_zeros() as usize;
+                    marks ^= 1 << bit;
+                    self.pass(word * 64 + bit, cells);
+                }
+            }
+        } else {
+            for cell in (lowest..=highest).rev() {
+                self.pass(cell, cells);
+            }
+        }
+    }
 }
 
-/// Returns the monomials of the product, decreasing; its coefficients are passed one by one to `take`, which is not generic so
-/// that the code for machine words exists once for all rings. With `MARKED`, cells are found by marks, which pays if most are empty.
-pub(super) fn product<K: Key, C, A: Accumulator<C>, const MARKED: bool>(
+/// Returns the monomials of the product, decreasing; its coefficients are passed one by one to `take`.
+pub(super) fn product<C, A: Accumulator<C>>(
     grid: &Grid,
-    left: &Blocks<K, C>,
-    right: &Blocks<K, C>,
+    monomials: [&[u64]; 2],
+    factors: Factors<C>,
+    marked: bool,
     take: &mut dyn FnMut(A),
 ) -> Vec<u64> {
-    let cells = grid.cells();
-    let marks = vec![0; if MARKED { cells.div_ceil(64) } else { 0 }];
-    let mut collector = Collector { sums: vec![A::empty(); cells], marks };
+    let (sums, blocks) = (vec![A::empty(); grid.cells()], factors.map(|(blocks, _)| blocks));
+    if marked {
+        let marks = vec![0; grid.cells().div_ceil(64)];
+        in_order(grid, monomials, blocks, &mut Collector::<C, A, true> { factors, sums, marks, take })
+    } else {
+        in_order(grid, monomials, blocks, &mut Collector::<C, A, false> { factors, sums, marks: Vec::new(), take })
+    }
+}
+
+fn in_order(grid: &Grid, monomials: [&[u64]; 2], blocks: [&Blocks; 2], sums: &mut dyn Collect) -> Vec<u64> {
+    match grid.words() {
+        1 => in_order_by::<u64>(grid, monomials, blocks, sums),
+        2 => in_order_by::<[u64; 2]>(grid, monomials, blocks, sums),
+        _ => in_order_by::<Box<[u64]>>(grid, monomials, blocks, sums),
+    }
+}
+
+fn in_order_by<K: Key>(
+    grid: &Grid,
+    [left_monomials, right_monomials]: [&[u64]; 2],
+    [left, right]: [&Blocks; 2],
+    sums: &mut dyn Collect,
+) -> Vec<u64> {
+    let (left_keys, right_keys) = (left.keys::<K>(grid, left_monomials), right.keys::<K>(grid, right_monomials));
     let mut monomials = Vec::new();
     let mut heap = Heap::new(left.len());
     let mut columns = vec![0; left.len()];
-    heap.insert(left.keys[0].times(&right.keys[0]), 0);
-    let mut rows = Vec::new();
+    heap.insert(left_keys[0].times(&right_keys[0]), 0);
+    let (mut rows, mut hit) = (Vec::new(), Vec::new());
     while let Some(key) = heap.pop(&mut rows) {
-        let (mut lowest, mut highest) = (cells, 0);
+        let (mut lowest, mut highest) = (grid.cells(), 0);
         for &row in &rows {
             let column = columns[row];
-            collector.add::<K, C, MARKED>(left, row, right, column);
+            sums.add(row, column);
             // The cells of a block decrease.
             highest = highest.max(left.cells[left.starts[row]] + right.cells[right.starts[column]]);
             lowest = lowest.min(left.cells[left.starts[row + 1] - 1] + right.cells[right.starts[column + 1] - 1]);
@@ -267,32 +331,15 @@ pub(super) fn product<K: Key, C, A: Accumulator<C>, const MARKED: bool>(
         for row in rows.drain(..) {
             columns[row] += 1;
             if columns[row] == 1 && row + 1 < left.len() {
-                heap.insert(left.keys[row + 1].times(&right.keys[0]), row + 1);
+                heap.insert(left_keys[row + 1].times(&right_keys[0]), row + 1);
             }
-            if let Some(next) = right.keys.get(columns[row]) {
-                heap.insert(left.keys[row].times(next), row);
+            if let Some(next) = right_keys.get(columns[row]) {
+                heap.insert(left_keys[row].times(next), row);
             }
         }
-        let mut emit = |cell: usize, sums: &mut [A]| {
-            if !sums[cell].vanishes() {
-                let sum = std::mem::replace(&mut sums[cell], A::empty());
-                monomials.extend(key.words().iter().zip(grid.monomial(cell)).map(|(outer, inner)| outer | inner));
-                take(sum);
-            }
-        };
-        if MARKED {
-            for word in (lowest / 64..=highest / 64).rev() {
-                let mut marks = std::mem::take(&mut collector.marks[word]);
-                while marks != 0 {
-                    let bit = 63 - marks.leading_zeros() as usize;
-                    marks ^= 1 << bit;
-                    emit(word * 64 + bit, &mut collector.sums);
-                }
-            }
-        } else {
-            for cell in (lowest..=highest).rev() {
-                emit(cell, &mut collector.sums);
-            }
+        sums.empty(lowest, highest, &mut hit);
+        for cell in hit.drain(..) {
+            monomials.extend(key.words().iter().zip(grid.monomial(cell)).map(|(outer, inner)| outer | inner));
         }
     }
     monomials.shrink_to_fit();

@@ -7,6 +7,7 @@ use super::Polynomial;
 use crate::int::Int;
 use crate::modp::Modulus;
 use crate::residue_polynomial::{Residues, common_divisor, divide, make_monic, product, trim, value};
+use crate::sort;
 use std::cmp::{Ordering, Reverse};
 
 /// The packing of the exponents of the occurring variables into one integer, each field as wide as needed.
@@ -24,7 +25,7 @@ impl Layout {
         let of = |degrees: &[u32], variable: usize| degrees.get(variable).copied().unwrap_or(0);
         let degree = |variable: usize| of(&a_degrees, variable).max(of(&b_degrees, variable));
         let mut variables: Vec<usize> = (0..a.variables().max(b.variables())).filter(|&v| degree(v) > 0).collect();
-        variables.sort_by_key(|&variable| Reverse(degree(variable)));
+        sort::by_key(&mut variables, |&variable| Reverse(degree(variable)));
         let mut used = 0;
         let mut shifts = Vec::new();
         for &variable in variables.iter().rev() {

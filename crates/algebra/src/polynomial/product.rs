@@ -1,7 +1,6 @@
 //! Products, by the method that the planner expects to be fastest.
 
 use super::blocks::{self, Accumulator, Blocks, Grid, Triple};
-use super::heap::Key;
 use super::kronecker::{Kronecker, Numbers};
 use super::planes::{Planes, Sums};
 use super::{Polynomial, Size};
@@ -220,35 +219,22 @@ impl<R: Ring> Polynomial<R> {
 fn collect<C, A: Accumulator<C>>(
     grid: &Grid,
     degrees: &[u32],
-    left: (&[u64], &[C]),
-    right: (&[u64], &[C]),
-    take: &mut dyn FnMut(A),
-) -> Vec<u64> {
-    match grid.words() {
-        1 => collect_by::<u64, C, A>(grid, degrees, left, right, take),
-        2 => collect_by::<[u64; 2], C, A>(grid, degrees, left, right, take),
-        _ => collect_by::<Box<[u64]>, C, A>(grid, degrees, left, right, take),
-    }
-}
-
-fn collect_by<K: Key, C, A: Accumulator<C>>(
-    grid: &Grid,
-    degrees: &[u32],
     (left, a): (&[u64], &[C]),
     (right, b): (&[u64], &[C]),
     take: &mut dyn FnMut(A),
 ) -> Vec<u64> {
-    let left = Blocks::<K, C>::new(grid, left, a);
-    let right = Blocks::<K, C>::new(grid, right, b);
+    let blocks = [Blocks::new(grid, left), Blocks::new(grid, right)];
+    let marked = is_sparse(grid, degrees, &blocks);
+    blocks::product(grid, [left, right], [(&blocks[0], a), (&blocks[1], b)], marked, take)
+}
+
+/// Whether a product has fewer pairs of terms than its boxes have cells.
+fn is_sparse(grid: &Grid, degrees: &[u32], [left, right]: &[Blocks; 2]) -> bool {
     // The maximum number of boxes, and how full they are then.
     let volume = |degrees: &[u32]| degrees.iter().fold(1.0, |cells, &degree| cells * (f64::from(degree) + 1.0));
     let (outer, inner) = degrees.split_at(grid.leading());
     let boxes = volume(outer).min(left.len() as f64 * right.len() as f64);
-    if a.len() as f64 * b.len() as f64 >= boxes * volume(inner) {
-        blocks::product::<K, C, A, false>(grid, &left, &right, take)
-    } else {
-        blocks::product::<K, C, A, true>(grid, &left, &right, take)
-    }
+    (left.cells.len() as f64 * right.cells.len() as f64) < boxes * volume(inner)
 }
 
 #[cfg(test)]
@@ -273,7 +259,7 @@ mod tests {
     }
 
     /// Returns the product by one branch: with a box of at most this size, marked or not.
-    fn branch<K: Key, C, A: Accumulator<C>>(
+    fn branch<C, A: Accumulator<C>>(
         (f, a): (&Poly, &[C]),
         (g, b): (&Poly, &[C]),
         most: usize,
@@ -284,18 +270,15 @@ mod tests {
         let degrees: Vec<u32> = (0..packing.variables()).map(|v| f.degree(v) + g.degree(v)).collect();
         let grid = Grid::new(packing, &degrees, most);
         let (left, right) = (f.packed_as(packing), g.packed_as(packing));
-        let (left, right) = (Blocks::<K, C>::new(&grid, &left, a), Blocks::<K, C>::new(&grid, &right, b));
+        let blocks = [Blocks::new(&grid, &left), Blocks::new(&grid, &right)];
         let mut coefficients = Vec::new();
         let mut take = |sum: A| coefficients.push(image(sum));
-        let monomials = if marked {
-            blocks::product::<K, C, A, true>(&grid, &left, &right, &mut take)
-        } else {
-            blocks::product::<K, C, A, false>(&grid, &left, &right, &mut take)
-        };
+        let factors = [(&blocks[0], a), (&blocks[1], b)];
+        let monomials = blocks::product(&grid, [&left, &right], factors, marked, &mut take);
         Poly { packing, monomials, coefficients }
     }
 
-    fn all_branches<K: Key>(f: &Poly, g: &Poly) {
+    fn all_branches(f: &Poly, g: &Poly) {
         let packing = f.product_packing(g);
         let expected = if packing.words() == 1 {
             f.sorted_product(g, packing, &f.packed_as(packing), &g.packed_as(packing))
@@ -308,12 +291,12 @@ mod tests {
         let (a, b) = (to_words(&f.coefficients).unwrap(), to_words(&g.coefficients).unwrap());
         for most in [1, 2, 40, 1000, CELLS, 1 << 20] {
             for marked in [false, true] {
-                assert_eq!(branch::<K, i64, i128>((f, &a), (g, &b), most, marked, Int::from), expected);
-                assert_eq!(branch::<K, i64, Triple>((f, &a), (g, &b), most, marked, Triple::to_ring), expected);
+                assert_eq!(branch::<i64, i128>((f, &a), (g, &b), most, marked, Int::from), expected);
+                assert_eq!(branch::<i64, Triple>((f, &a), (g, &b), most, marked, Triple::to_ring), expected);
                 let (c, d) = (&f.coefficients[..], &g.coefficients[..]);
-                assert_eq!(branch::<K, Int, Int>((f, c), (g, d), most, marked, |sum| sum), expected);
+                assert_eq!(branch::<Int, Int>((f, c), (g, d), most, marked, |sum| sum), expected);
                 if bound(&a, &b) < 1 << 63 {
-                    assert_eq!(branch::<K, i64, i64>((f, &a), (g, &b), most, marked, Int::from), expected);
+                    assert_eq!(branch::<i64, i64>((f, &a), (g, &b), most, marked, Int::from), expected);
                 }
             }
         }
@@ -326,17 +309,15 @@ mod tests {
         {
             let f = scattered(variables, degree, terms, largest);
             let g = scattered(variables, degree / 2 + 1, terms / 2, largest);
-            all_branches::<u64>(&f, &g);
-            all_branches::<u64>(&f, &f.neg());
-            all_branches::<Box<[u64]>>(&f, &g);
+            all_branches(&f, &g);
+            all_branches(&f, &f.neg());
         }
         let (f, g) = (scattered(13, 9, 30, 1000), scattered(11, 20, 30, i64::MAX));
         assert_eq!(f.product_packing(&g).words(), 2);
-        all_branches::<[u64; 2]>(&f, &g);
-        all_branches::<Box<[u64]>>(&f, &g);
+        all_branches(&f, &g);
         let (f, g) = (scattered(30, 9, 30, 1000), scattered(20, 90, 30, i64::MAX));
         assert!(f.product_packing(&g).words() > 2);
-        all_branches::<Box<[u64]>>(&f, &g);
+        all_branches(&f, &g);
     }
 
     #[test]

@@ -10,7 +10,6 @@ use super::heap::{Heap, Key};
 use super::product::{CELLS, to_words};
 use crate::monomial::Packing;
 use crate::ring::{Domain, Ring};
-use std::ops::Range;
 
 /// Number of terms in an average block from which on boxes pay.
 const FEW: usize = 4;
@@ -171,134 +170,113 @@ struct Division<'a, C: Coefficient> {
 impl<C: Coefficient> Division<'_, C> {
     /// Returns the terms of the quotient, `None` if there is a remainder.
     fn run(&self) -> Result<Terms<C>, Overflow> {
-        match self.packing.words() {
-            1 => self.run_by::<u64>(),
-            2 => self.run_by::<[u64; 2]>(),
-            _ => self.run_by::<Box<[u64]>>(),
-        }
-    }
-
-    fn run_by<K: Key>(&self) -> Result<Terms<C>, Overflow> {
         let (dividend, divisor) = (self.dividend, self.divisor);
         let mut grid = Grid::new(self.packing, self.degrees, CELLS.min(dividend.1.len()));
-        let mut blocks = Blocks::<K, C::Sum>::new(&grid, dividend.0, dividend.1);
+        let mut blocks = Blocks::new(&grid, dividend.0);
         if blocks.len() * FEW > dividend.1.len() {
             grid = Grid::new(self.packing, self.degrees, 1);
-            blocks = Blocks::new(&grid, dividend.0, dividend.1);
+            blocks = Blocks::new(&grid, dividend.0);
         }
-        let divisor = Blocks::<K, C>::new(&grid, divisor.0, divisor.1);
-        let bench = Bench { sums: vec![C::empty(); grid.cells()], marks: vec![0; grid.cells().div_ceil(64)], top: 0 };
-        let quotient = Quotient {
-            keys: Vec::new(),
+        let divisor = Blocks::new(&grid, divisor.0);
+        let mut bench = Bench {
+            division: self,
+            grid: &grid,
+            dividend: &blocks,
+            divisor: &divisor,
+            rest: Rest { sums: vec![C::empty(); grid.cells()], marks: vec![0; grid.cells().div_ceil(64)], top: 0 },
             starts: vec![0],
             cells: Vec::new(),
             monomials: Vec::new(),
             coefficients: Vec::new(),
         };
-        self.divide_blocks(&grid, &blocks, &divisor, bench, quotient)
-    }
-
-    fn divide_blocks<K: Key>(
-        &self,
-        grid: &Grid,
-        dividend: &Blocks<K, C::Sum>,
-        divisor: &Blocks<K, C>,
-        mut bench: Bench<C>,
-        mut quotient: Quotient<K, C>,
-    ) -> Result<Terms<C>, Overflow> {
-        // Row i is the i-th block of the divisor times the quotient; rows that have used up the quotient wait.
-        let mut heap = Heap::<K>::new(divisor.len());
-        let mut columns = vec![0; divisor.len()];
-        let mut waiting = if divisor.len() > 1 { vec![1] } else { Vec::new() };
-        let (mut rows, mut next) = (Vec::new(), 0);
-        loop {
-            let key = match (dividend.keys.get(next), heap.peek()) {
-                (None, None) => return Ok(Some((quotient.monomials, quotient.coefficients))),
-                (Some(a), Some(b)) => a.max(b).clone(),
-                (Some(key), None) | (None, Some(key)) => key.clone(),
-            };
-            if dividend.keys.get(next) == Some(&key) {
-                for i in dividend.block(next) {
-                    bench.start(dividend.cells[i], &dividend.coefficients[i]);
-                }
-                next += 1;
-            }
-            if heap.peek() == Some(&key) {
-                heap.pop(&mut rows);
-            }
-            for &row in &rows {
-                let column = columns[row];
-                for i in quotient.starts[column]..quotient.starts[column + 1] {
-                    bench.subtract(divisor, divisor.block(row), quotient.cells[i], &quotient.coefficients[i])?;
-                }
-            }
-            for row in rows.drain(..) {
-                columns[row] += 1;
-                if columns[row] == 1 && row + 1 < divisor.len() {
-                    heap.insert(divisor.keys[row + 1].times(&quotient.keys[0]), row + 1);
-                }
-                match quotient.keys.get(columns[row]) {
-                    Some(key) => heap.insert(divisor.keys[row].times(key), row),
-                    None => waiting.push(row),
-                }
-            }
-            if self.divide_box(grid, &key, divisor, &mut bench, &mut quotient)?.is_none() {
-                return Ok(None);
-            }
-            if quotient.starts.last() < Some(&quotient.cells.len()) {
-                quotient.starts.push(quotient.cells.len());
-                let outer = key.over(&divisor.keys[0]);
-                for row in waiting.drain(..) {
-                    heap.insert(divisor.keys[row].times(&outer), row);
-                }
-                quotient.keys.push(outer);
-            }
-        }
-    }
-
-    /// Divides the terms on the bench by the first block of the divisor; `None` if there is a remainder.
-    fn divide_box<K: Key>(
-        &self,
-        grid: &Grid,
-        key: &K,
-        divisor: &Blocks<K, C>,
-        bench: &mut Bench<C>,
-        quotient: &mut Quotient<K, C>,
-    ) -> Result<Option<()>, Overflow> {
-        let leading = &self.divisor.0[..self.packing.words()];
-        let guards = self.packing.guards();
-        while let Some(cell) = bench.highest() {
-            let sum = std::mem::replace(&mut bench.sums[cell], C::empty());
-            if C::vanishes(&sum) {
-                continue;
-            }
-            let end = quotient.monomials.len();
-            quotient.monomials.extend(key.words().iter().zip(grid.monomial(cell)).map(|(outer, inner)| outer | inner));
-            let monomial = &mut quotient.monomials[end..];
-            // No term of the quotient has a higher degree than the quotient.
-            let divides = divide_monomial(guards, monomial, leading)
-                && self.highest.iter().zip(monomial).all(|(high, word)| ((high | guards) - *word) & guards == guards);
-            let Some(c) = C::divide(&sum, &divisor.coefficients[0])?.filter(|_| divides) else { return Ok(None) };
-            let start = cell - divisor.cells[0];
-            bench.subtract(divisor, 1..divisor.block(0).end, start, &c)?;
-            quotient.cells.push(start);
-            quotient.coefficients.push(c);
-        }
-        Ok(Some(()))
+        let (dividend, divisor) = ((&blocks, self.dividend.0), (&divisor, self.divisor.0));
+        let divides = match self.packing.words() {
+            1 => divide_blocks::<u64>(&grid, dividend, divisor, &mut bench),
+            2 => divide_blocks::<[u64; 2]>(&grid, dividend, divisor, &mut bench),
+            _ => divide_blocks::<Box<[u64]>>(&grid, dividend, divisor, &mut bench),
+        }?;
+        Ok(divides.then_some((bench.monomials, bench.coefficients)))
     }
 }
 
-/// The quotient found so far, in blocks that agree in the leading variables.
-struct Quotient<K, C> {
-    keys: Vec<K>,
-    starts: Vec<usize>,
-    cells: Vec<usize>,
-    monomials: Vec<u64>,
-    coefficients: Vec<C>,
+/// What a block of the quotient was found to be.
+enum Found {
+    /// Zero.
+    Nothing,
+    /// Terms, which are a new block.
+    Block,
+    /// No polynomial.
+    Remainder,
+}
+
+/// What happens to the coefficients while a heap orders the monomials. The heap sees no coefficients, so that it exists once for all
+/// rings.
+trait Work {
+    /// Puts the terms of a block of the dividend on the bench.
+    fn start(&mut self, block: usize);
+    /// Subtracts a block of the divisor times one of the quotient.
+    fn subtract_product(&mut self, divisor: usize, quotient: usize) -> Result<(), Overflow>;
+    /// Divides the terms on the bench by the first block of the divisor; their leading variables are those of the key.
+    fn divide(&mut self, key: &[u64]) -> Result<Found, Overflow>;
+}
+
+/// Divides block by block; false if there is a remainder.
+fn divide_blocks<K: Key>(
+    grid: &Grid,
+    (dividend, dividend_monomials): (&Blocks, &[u64]),
+    (divisor, divisor_monomials): (&Blocks, &[u64]),
+    bench: &mut dyn Work,
+) -> Result<bool, Overflow> {
+    let dividend_keys = dividend.keys::<K>(grid, dividend_monomials);
+    let divisor_keys = divisor.keys::<K>(grid, divisor_monomials);
+    let mut quotient_keys: Vec<K> = Vec::new();
+    // Row i is the i-th block of the divisor times the quotient; rows that have used up the quotient wait.
+    let mut heap = Heap::<K>::new(divisor.len());
+    let mut columns = vec![0; divisor.len()];
+    let mut waiting = if divisor.len() > 1 { vec![1] } else { Vec::new() };
+    let (mut rows, mut next) = (Vec::new(), 0);
+    loop {
+        let key = match (dividend_keys.get(next), heap.peek()) {
+            (None, None) => return Ok(true),
+            (Some(a), Some(b)) => a.max(b).clone(),
+            (Some(key), None) | (None, Some(key)) => key.clone(),
+        };
+        if dividend_keys.get(next) == Some(&key) {
+            bench.start(next);
+            next += 1;
+        }
+        if heap.peek() == Some(&key) {
+            heap.pop(&mut rows);
+        }
+        for &row in &rows {
+            bench.subtract_product(row, columns[row])?;
+        }
+        for row in rows.drain(..) {
+            columns[row] += 1;
+            if columns[row] == 1 && row + 1 < divisor.len() {
+                heap.insert(divisor_keys[row + 1].times(&quotient_keys[0]), row + 1);
+            }
+            match quotient_keys.get(columns[row]) {
+                Some(key) => heap.insert(divisor_keys[row].times(key), row),
+                None => waiting.push(row),
+            }
+        }
+        match bench.divide(key.words())? {
+            Found::Nothing => {}
+            Found::Remainder => return Ok(false),
+            Found::Block => {
+                let outer = key.over(&divisor_keys[0]);
+                for row in waiting.drain(..) {
+                    heap.insert(divisor_keys[row].times(&outer), row);
+                }
+                quotient_keys.push(outer);
+            }
+        }
+    }
 }
 
 /// The box in which a block of the dividend loses its multiples of the divisor.
-struct Bench<C: Coefficient> {
+struct Rest<C: Coefficient> {
     sums: Vec<C::Sum>,
     /// A bit for each cell that may not be zero.
     marks: Vec<u64>,
@@ -306,28 +284,32 @@ struct Bench<C: Coefficient> {
     top: usize,
 }
 
-impl<C: Coefficient> Bench<C> {
+/// A block of the dividend on its way to zero, and the quotient found so far.
+struct Bench<'a, C: Coefficient> {
+    division: &'a Division<'a, C>,
+    grid: &'a Grid,
+    dividend: &'a Blocks,
+    divisor: &'a Blocks,
+    rest: Rest<C>,
+    /// The start of each block of the quotient, and its number of terms.
+    starts: Vec<usize>,
+    /// The cell of each term of the quotient.
+    cells: Vec<usize>,
+    monomials: Vec<u64>,
+    coefficients: Vec<C>,
+}
+
+impl<C: Coefficient> Rest<C> {
     fn mark(&mut self, cell: usize) {
         self.marks[cell / 64] |= 1 << (cell % 64);
         self.top = self.top.max(cell / 64);
     }
 
-    fn start(&mut self, cell: usize, c: &C::Sum) {
-        self.sums[cell] = c.clone();
-        self.mark(cell);
-    }
-
-    /// Subtracts terms of the divisor times one of the quotient.
+    /// Subtracts terms times one of the quotient.
     #[inline(always)]
-    fn subtract<K>(
-        &mut self,
-        divisor: &Blocks<K, C>,
-        terms: Range<usize>,
-        start: usize,
-        c: &C,
-    ) -> Result<(), Overflow> {
+    fn subtract(&mut self, cells: &[usize], terms: &[C], start: usize, c: &C) -> Result<(), Overflow> {
         let mut highest = 0;
-        for (cell, d) in divisor.cells[terms.clone()].iter().zip(&divisor.coefficients[terms]) {
+        for (cell, d) in cells.iter().zip(terms) {
             let cell = start + cell;
             C::subtract(&mut self.sums[cell], d, c)?;
             self.marks[cell / 64] |= 1 << (cell % 64);
@@ -345,5 +327,55 @@ impl<C: Coefficient> Bench<C> {
         let bit = 63 - self.marks[self.top].leading_zeros() as usize;
         self.marks[self.top] ^= 1 << bit;
         Some(self.top * 64 + bit)
+    }
+}
+
+impl<C: Coefficient> Work for Bench<'_, C> {
+    fn start(&mut self, block: usize) {
+        for i in self.dividend.block(block) {
+            let cell = self.dividend.cells[i];
+            self.rest.sums[cell] = self.division.dividend.1[i].clone();
+            self.rest.mark(cell);
+        }
+    }
+
+    fn subtract_product(&mut self, divisor: usize, quotient: usize) -> Result<(), Overflow> {
+        let block = self.divisor.block(divisor);
+        let (cells, terms) = (&self.divisor.cells[block.clone()], &self.division.divisor.1[block]);
+        for i in self.starts[quotient]..self.starts[quotient + 1] {
+            self.rest.subtract(cells, terms, self.cells[i], &self.coefficients[i])?;
+        }
+        Ok(())
+    }
+
+    fn divide(&mut self, key: &[u64]) -> Result<Found, Overflow> {
+        let (packing, divisor) = (self.division.packing, self.division.divisor);
+        let leading = &divisor.0[..packing.words()];
+        let guards = packing.guards();
+        let behind = 1..self.divisor.block(0).end;
+        let (cells, terms) = (&self.divisor.cells[behind.clone()], &divisor.1[behind]);
+        while let Some(cell) = self.rest.highest() {
+            let sum = std::mem::replace(&mut self.rest.sums[cell], C::empty());
+            if C::vanishes(&sum) {
+                continue;
+            }
+            let end = self.monomials.len();
+            self.monomials.extend(key.iter().zip(self.grid.monomial(cell)).map(|(outer, inner)| outer | inner));
+            let monomial = &mut self.monomials[end..];
+            // No term of the quotient has a higher degree than the quotient.
+            let highest = self.division.highest;
+            let divides = divide_monomial(guards, monomial, leading)
+                && highest.iter().zip(monomial).all(|(high, word)| ((high | guards) - *word) & guards == guards);
+            let Some(c) = C::divide(&sum, &divisor.1[0])?.filter(|_| divides) else { return Ok(Found::Remainder) };
+            let start = cell - self.divisor.cells[0];
+            self.rest.subtract(cells, terms, start, &c)?;
+            self.cells.push(start);
+            self.coefficients.push(c);
+        }
+        if self.starts.last() == Some(&self.cells.len()) {
+            return Ok(Found::Nothing);
+        }
+        self.starts.push(self.cells.len());
+        Ok(Found::Block)
     }
 }

@@ -18,6 +18,7 @@ use crate::integer_polynomial::Lifted;
 use crate::modp::{Modulus, primes};
 use crate::residue_polynomial::{Residues, common_divisor, make_monic, trim};
 use crate::ring::{Domain, Ring};
+use crate::sort;
 use rug::Integer;
 
 /// What the preparation costs, in products of residues.
@@ -94,7 +95,7 @@ impl Polynomial<Int> {
 fn grid_cost(a: &Terms, b: &Terms) -> f64 {
     let mut degrees: Vec<(f64, f64)> =
         a.degrees.iter().zip(&b.degrees).map(|(&a, &b)| (f64::from(a), f64::from(b))).collect();
-    degrees.sort_by(|x, y| (y.0.max(y.1)).total_cmp(&x.0.max(x.1)));
+    sort::by(&mut degrees, |x, y| (y.0.max(y.1)).total_cmp(&x.0.max(x.1)));
     let Some(((main_a, main_b), others)) = degrees.split_first() else { return 0.0 };
     let points: f64 = others.iter().map(|(a, b)| a.min(*b) + 1.0).product();
     points * (main_a * main_b + 4.0 * (main_a + main_b)) + (a.len() + b.len()) as f64

@@ -3,6 +3,7 @@
 use super::Polynomial;
 use crate::int::Int;
 use crate::ring::{Domain, Ring};
+use crate::sort;
 
 impl Polynomial<Int> {
     /// Returns the square-free factors that are not constant, primitive with positive leading coefficients, each with its
@@ -38,7 +39,7 @@ impl Polynomial<Int> {
         if rest.len() > 1 && rest.degrees().into_iter().all(|degree| degree <= 1) {
             // The square of a factor would have a degree of 2 or more.
             enter(&mut factors, rest, 1);
-            factors.sort_by_key(|(_, multiplicity)| *multiplicity);
+            sort::by_key(&mut factors, |(_, multiplicity)| *multiplicity);
             return factors;
         }
         // In characteristic 0 a factor that the main variable occurs in is not lost by the derivative; others are in the
@@ -50,7 +51,7 @@ impl Polynomial<Int> {
             rest.div_exact(&content).decompose_in(variable, &mut factors);
             rest = content;
         }
-        factors.sort_by_key(|(_, multiplicity)| *multiplicity);
+        sort::by_key(&mut factors, |(_, multiplicity)| *multiplicity);
         factors
     }
 

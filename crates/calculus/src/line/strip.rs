@@ -41,7 +41,7 @@ pub fn strip(points: &[[f64; 2]]) -> Option<Strip> {
 fn hull(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut sorted: Vec<[f64; 2]> =
         points.iter().copied().filter(|point| point.iter().all(|x| x.is_finite())).collect();
-    sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    looproot_algebra::sort::by(&mut sorted, |a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     sorted.dedup();
     if sorted.len() < 3 {
         return sorted;
