@@ -10,16 +10,11 @@ use looproot_algebra as algebra;
 #[path = ""]
 #[rustfmt::skip]
 pub mod internal {
-    pub mod error;
-    pub mod kinematics;
+    pub use looproot_engine::{assembly, certify, closure, elimination, error, kinematics, solve};
+
     pub mod catalogue;
     pub mod certificate;
-    pub mod closure;
-    pub mod elimination;
-    pub mod solve;
-    pub mod certify;
     pub mod exact;
-    pub mod assembly;
     pub mod verdict;
     pub mod mechanism;
     pub mod displacement;

@@ -62,7 +62,7 @@ pub struct Placement {
     /// The correctly rounded image of the motion, its rotation orthogonal to rounding.
     pub float: Motion<f64>,
     /// The rows of the given matrix, where the exact motion only represents it.
-    pub(crate) rows: Option<Box<[[Number; 4]; 3]>>,
+    pub rows: Option<Box<[[Number; 4]; 3]>>,
     /// Distance of the given rotation from a rotation: the largest entry of |R - nearest rotation|.
     pub defect: f64,
 }

@@ -403,7 +403,8 @@ fn is_orthonormal(m: &Matrix3<Rational>) -> bool {
 }
 
 /// The rotation of a nonzero quaternion of any length.
-pub(crate) fn rotation_of(quaternion: [&Rational; 4]) -> Matrix3<Rational> {
+#[must_use]
+pub fn rotation_of(quaternion: [&Rational; 4]) -> Matrix3<Rational> {
     let norm: Rational = quaternion.iter().map(|q| Rational::from(q.square_ref())).sum();
     scaled_rotation(quaternion, &norm.recip())
 }
