@@ -166,7 +166,9 @@ mod tests {
     fn quick_lists_are_the_same() {
         let mut random = ChaCha8Rng::seed_from_u64(7);
         let (mut workspace, mut quick, mut close) = (Workspace::default(), Assembly::default(), Assembly::default());
-        for (kind, off, least) in [(2, 0.0, 97), (3, 0.0, 90), (0, 0.0, 0), (1, 0.0, 0), (0, 1e-4, 90), (1, 1e-7, 90), (0, 1e-10, 0)] {
+        for (kind, off, least) in
+            [(2, 0.0, 97), (3, 0.0, 90), (0, 0.0, 0), (1, 0.0, 0), (0, 1e-4, 90), (1, 1e-7, 90), (0, 1e-10, 0)]
+        {
             let (mut both, mut count) = (0, 0);
             for _ in 0..40 {
                 let solver = arm(kind, off, &mut random);

@@ -76,9 +76,7 @@ impl LaneRows {
             1.01 * x.iter().map(|x| of(*x).powi(2)).sum::<f64>().sqrt()
         };
         let block = |b: usize, of: fn(Bounded<f64>) -> f64| {
-            std::array::from_fn(|e| {
-                largest(forms[e].iter().flatten().map(|form| length(&form[BLOCKS[b].clone()], of)))
-            })
+            std::array::from_fn(|e| largest(forms[e].iter().flatten().map(|form| length(&form[BLOCKS[b].clone()], of))))
         };
         let value = |e: usize, k1: usize, k2: usize, i: usize| {
             // There are seven fixed coordinates; an eighth would be the last one again.

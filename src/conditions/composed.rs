@@ -158,7 +158,7 @@ fn example(members: &[Member]) -> Vec<Link<Rational>> {
         let square = Rational::from(t.square_ref());
         let below = Rational::from(1 + &square);
         Link {
-            cos: Rational::from(1 - square) / &below,
+            cos: (1 - square) / &below,
             sin: t * 2 / below,
             a: value_at(&member.a, &numbers),
             d: value_at(&member.d, &numbers),
@@ -177,7 +177,7 @@ fn turn(theta: &Ratio) -> Option<(Rational, Rational)> {
     let t = value_at(&theta.0, &numbers) / below;
     let square = Rational::from(t.square_ref());
     let below = Rational::from(1 + &square);
-    Some((Rational::from(1 - square) / &below, t * 2 / below))
+    Some(((1 - square) / &below, t * 2 / below))
 }
 
 fn variable(k: usize) -> Poly {
@@ -224,14 +224,22 @@ fn member(theta: Ratio, alpha: Ratio, a: Poly) -> Member {
     Member { theta, d: Poly::zero(), alpha, a }
 }
 
+/// Returns the variable of conditions that is the tangent of half a twist.
+fn tangent(link: usize) -> Poly {
+    variable(link - 1)
+}
+
+/// Returns what vanishes if the tangent of a link is that of the sum of the twists of others.
+fn is_sum(k: usize, of: &[usize]) -> Poly {
+    let all = of.iter().map(|k| ratio(tangent(*k)));
+    let total = all.reduce(|total, one| sum(&total, &one)).unwrap_or_else(|| ratio(Poly::zero()));
+    tangent(k).mul(&total.1).sub(&total.0)
+}
+
 /// Variables of conditions on loops of n joints.
 struct Own(usize);
 
 impl Own {
-    fn t(&self, k: usize) -> Poly {
-        variable(k - 1)
-    }
-
     fn a(&self, k: usize) -> Poly {
         variable(self.0 + k - 1)
     }
@@ -243,20 +251,13 @@ impl Own {
 
     /// Returns what vanishes if the lengths of two links are as the sines of their twists.
     fn proportional(&self, i: usize, j: usize) -> Poly {
-        let weight = |k: usize| Poly::one().add(&self.t(k).mul(&self.t(k)));
-        let side = |i: usize, j: usize| self.a(i).mul(&self.t(j)).mul(&weight(i));
+        let weight = |k: usize| Poly::one().add(&tangent(k).mul(&tangent(k)));
+        let side = |i: usize, j: usize| self.a(i).mul(&tangent(j)).mul(&weight(i));
         side(i, j).sub(&side(j, i))
     }
 
-    /// Returns what vanishes if the tangent of a link is that of the sum of the twists of others.
-    fn is_sum(&self, k: usize, of: &[usize]) -> Poly {
-        let all = of.iter().map(|k| ratio(self.t(*k)));
-        let total = all.reduce(|total, one| sum(&total, &one)).unwrap_or_else(|| ratio(Poly::zero()));
-        self.t(k).mul(&total.1).sub(&total.0)
-    }
-
     fn equal(&self, i: usize, j: usize) -> [Poly; 2] {
-        [self.t(i).sub(&self.t(j)), self.a(i).sub(&self.a(j))]
+        [tangent(i).sub(&tangent(j)), self.a(i).sub(&self.a(j))]
     }
 }
 
@@ -278,7 +279,7 @@ fn goldberg() -> Composed {
     let own = Own(5);
     let mut conditions = own.equal(5, 2).to_vec();
     conditions.extend([
-        own.is_sum(1, &[3, 4]),
+        is_sum(1, &[3, 4]),
         own.a(1).sub(&own.a(3)).sub(&own.a(4)),
         own.proportional(3, 2),
         own.proportional(4, 2),
@@ -317,9 +318,9 @@ fn myard() -> Composed {
     let own = Own(5);
     let mut conditions = own.equal(5, 2).to_vec();
     conditions.extend([
-        own.t(2).sub(&Poly::one()),
-        own.t(3).mul(&own.t(4)).add(&Poly::one()),
-        own.is_sum(1, &[3, 4]),
+        tangent(2).sub(&Poly::one()),
+        tangent(3).mul(&tangent(4)).add(&Poly::one()),
+        is_sum(1, &[3, 4]),
         own.a(1),
         own.a(3).add(&own.a(4)),
         own.proportional(4, 2),
@@ -350,7 +351,7 @@ fn goldberg_of_three() -> Composed {
     let own = Own(6);
     let mut conditions = own.equal(6, 2).to_vec();
     conditions.extend([
-        own.is_sum(1, &[3, 4, 5]),
+        is_sum(1, &[3, 4, 5]),
         own.a(1).sub(&own.a(3)).sub(&own.a(4)).sub(&own.a(5)),
         own.proportional(3, 2),
         own.proportional(4, 2),
@@ -378,8 +379,8 @@ fn waldron() -> Composed {
     ];
     let own = Own(6);
     let mut conditions = vec![
-        own.is_sum(3, &[1, 5]),
-        own.is_sum(6, &[2, 4]),
+        is_sum(3, &[1, 5]),
+        is_sum(6, &[2, 4]),
         own.a(3).sub(&own.a(1)).sub(&own.a(5)),
         own.a(6).sub(&own.a(2)).sub(&own.a(4)),
         own.proportional(1, 2),

@@ -155,7 +155,7 @@ impl Given {
             Self::Turn { joint, line, .. } => {
                 let square = Rational::from(value.square_ref());
                 let below = Rational::from(1 + &square);
-                let turn = Gaussian { re: Rational::from(1 - square) / &below, im: Rational::from(value * 2) / below };
+                let turn = Gaussian { re: (1 - square) / &below, im: Rational::from(value * 2) / below };
                 Some(Self::Turn { joint: *joint, turn, within: None, line: *line })
             }
             Self::Shift { joint, line, .. } => {

@@ -181,7 +181,12 @@ fn the_document_follows_its_schema() {
     follows("conditions.schema.json", &["conditions 4R --json", "conditions bennett --json"]);
     follows(
         "conditions_search.schema.json",
-        &["conditions 5R --json", "conditions goldberg_5r --json", "conditions dietmaier_6r --json", "conditions trihedral_6r --json"],
+        &[
+            "conditions 5R --json",
+            "conditions goldberg_5r --json",
+            "conditions dietmaier_6r --json",
+            "conditions trihedral_6r --json",
+        ],
     );
 }
 

@@ -49,7 +49,7 @@ mod tests {
             expected.sort_by_key(|(key, _)| *key);
             by_key(&mut list, |(key, _)| *key);
             assert_eq!(list, expected);
-            expected.sort_by(|a, b| b.0.cmp(&a.0));
+            expected.sort_by_key(|pair| std::cmp::Reverse(pair.0));
             by(&mut list, |a, b| b.0.cmp(&a.0));
             assert_eq!(list, expected);
         }

@@ -30,7 +30,12 @@ pub struct Asked<'a, S> {
 }
 
 /// Prints the cells of one parameter, or of two.
-pub fn run<S: Subject>(options: &DeriveOptions, mechanism: &str, asked: &Asked<'_, S>, names: &str) -> Result<Exit, Fault> {
+pub fn run<S: Subject>(
+    options: &DeriveOptions,
+    mechanism: &str,
+    asked: &Asked<'_, S>,
+    names: &str,
+) -> Result<Exit, Fault> {
     let names: Vec<&str> = names.split(',').map(str::trim).filter(|name| !name.is_empty()).collect();
     let Asked { subject, title, reading, place, document } = asked;
     let (written, exit) = match names.as_slice() {
