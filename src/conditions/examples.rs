@@ -15,7 +15,7 @@ pub struct Example {
     /// Its name in the library.
     pub name: String,
     /// What was done to its directions; empty if nothing was.
-    pub turned: &'static str,
+    pub turned: String,
     /// The links.
     pub links: Vec<Link<Rational>>,
 }
@@ -71,7 +71,7 @@ pub fn value_at(polynomial: &Polynomial<Int>, values: &[Rational]) -> Rational {
     sum
 }
 
-/// Returns the loops of so many revolute joints in every numbering, as they are and with the directions of half of them reversed.
+/// Returns the loops of so many revolute joints in every numbering, as they are and with directions of axes and common normals reversed.
 #[must_use]
 pub fn examples(joints: usize) -> Vec<Example> {
     let options = Options::default();
@@ -85,25 +85,39 @@ pub fn examples(joints: usize) -> Vec<Example> {
         }
         for first in 0..joints {
             let counted: Vec<Link<Rational>> = (0..joints).map(|k| links[(first + k) % joints].clone()).collect();
-            for (axes, normals, turned) in [
-                (false, false, ""),
-                (true, false, "axes of the second half reversed"),
-                (false, true, "common normals of the second half reversed"),
-                (true, true, "axes and common normals of the second half reversed"),
-            ] {
-                let links = reversed(&counted, axes, normals);
-                list.push(Example { name: name.clone(), turned, links });
+            for axes in [0, SECOND_HALF[joints % 8]] {
+                for normals in normals_of(joints) {
+                    let links = reversed(&counted, axes, normals);
+                    list.push(Example { name: name.clone(), turned: turned(joints, axes, normals), links });
+                }
             }
         }
     }
     list
 }
 
-/// Returns the same loop with axes or common normals of its second half reversed. An axis that points the other way changes the twists before
-/// and behind it by pi and the sign of its offset, a common normal the signs of twist and length.
-fn reversed(links: &[Link<Rational>], axes: bool, normals: bool) -> Vec<Link<Rational>> {
-    let half = links.len() / 2;
-    let is_reversed = |k: usize| axes && k % links.len() >= half;
+/// For every number of joints the bits of the second half of them.
+const SECOND_HALF: [usize; 8] = [0, 0, 0b10, 0b110, 0b1100, 0b1_1100, 0b11_1000, 0b111_1000];
+
+/// Returns the sets of links, as bits, whose common normals are reversed: all sets up to five joints, of six the second half, as its symmetries
+/// need no other.
+fn normals_of(joints: usize) -> Vec<usize> {
+    if joints <= 5 { (0..1 << joints).collect() } else { vec![0, SECOND_HALF[joints % 8]] }
+}
+
+fn turned(joints: usize, axes: usize, normals: usize) -> String {
+    let of = |what: &str, set: usize| {
+        let numbers: Vec<String> = (0..joints).filter(|k| set >> k & 1 == 1).map(|k| (k + 1).to_string()).collect();
+        (!numbers.is_empty()).then(|| format!("{what} {}", numbers.join(", ")))
+    };
+    let parts: Vec<String> = [of("axes", axes), of("common normals", normals)].into_iter().flatten().collect();
+    if parts.is_empty() { String::new() } else { format!("{} reversed", parts.join(" and ")) }
+}
+
+/// Returns the same loop with some axes or common normals reversed. An axis that points the other way changes the twists before and behind it by
+/// pi and the sign of its offset, a common normal the signs of twist and length.
+fn reversed(links: &[Link<Rational>], axes: usize, normals: usize) -> Vec<Link<Rational>> {
+    let is_reversed = |k: usize| axes >> (k % links.len()) & 1 == 1;
     let one = |(k, link): (usize, &Link<Rational>)| {
         let mut link = link.clone();
         if is_reversed(k) {
@@ -112,7 +126,7 @@ fn reversed(links: &[Link<Rational>], axes: bool, normals: bool) -> Vec<Link<Rat
         if is_reversed(k) != is_reversed(k + 1) {
             (link.cos, link.sin) = (-link.cos, -link.sin);
         }
-        if normals && k >= half {
+        if normals >> k & 1 == 1 {
             (link.sin, link.a) = (-link.sin, -link.a);
         }
         link

@@ -156,7 +156,10 @@ fn inputs_of_linkages_cut_cells_that_the_solver_confirms() {
         let subject = case(&file);
         let first = file.linkage.joints.iter().find(|joint| subject.parameter(&joint.name).is_ok()).unwrap();
         let own = cells(&subject, if parameter.is_empty() { &first.name } else { parameter }).unwrap();
-        assert_eq!(own.verdict.proof, Proof::Proved, "{name}: {:?}", own.verdict);
+        // Of a slide in a body that turns the relation is interpolated.
+        let is_probable = name == "linkage/inverted_slider_crank";
+        assert_eq!(matches!(own.verdict.proof, Proof::Probable { .. }), is_probable, "{name}: {:?}", own.verdict);
+        assert_eq!(own.verdict.proof.is_proved(), !is_probable, "{name}: {:?}", own.verdict);
         holds(&own);
         agrees(&subject, &own);
     }

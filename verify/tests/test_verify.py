@@ -141,6 +141,10 @@ def test_closure_polynomials_are_certified(tmp_path, checker, entry):
         "a common factor": {"claim": {**true["claim"], "polynomial": [str(2 * int(c)) for c in coefficients]}},
         "another degree": {"claim": {**true["claim"], "polynomial": coefficients[1:], "degree": 15}},
         "another unknown": {"claim": {**true["claim"], "unknown": true["claim"]["unknown"] % 6 + 1}},
+        "a negative joint": {
+            "claim": {**true["claim"], "unknown": 6},
+            "proof": [bound, {**member, "aid": {**member["aid"], "first": -7, "hidden": 0}}],
+        },
         "no membership": {"proof": [bound]},
         "no bound": {"proof": [member]},
         "no list of all solutions": {"proof": [{"kind": "distance"}, member], "modes": []},

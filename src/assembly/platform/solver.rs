@@ -12,7 +12,6 @@ use super::self_motion::{curve, project, self_motion};
 use super::triangle::TriangleRoute;
 use crate::algebra::long_float::{LongFloat, LongNumber};
 use crate::algebra::number::nearest_f64;
-use crate::algebra::sort;
 use crate::assembly::Roots;
 use crate::closure::study::Leg;
 use crate::elimination::affine_platform::AffineRelation;
@@ -230,7 +229,7 @@ impl PlatformSolver {
         let mut proved = std::mem::take(&mut workspace.found);
         proved.retain(|found| found.certificate.is_some());
         let radius = |found: &Found| found.certificate.map_or(f64::INFINITY, |c| c.radius);
-        sort::by(&mut proved, |a, b| radius(a).total_cmp(&radius(b)));
+        proved.sort_by(|a, b| radius(a).total_cmp(&radius(b)));
         for found in proved {
             take_in(&mut workspace.found, found);
         }
