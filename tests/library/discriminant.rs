@@ -149,7 +149,7 @@ fn inputs_of_linkages_cut_cells_that_the_solver_confirms() {
         ("linkage/level_four_bar", "A"),
         ("linkage/crank_slider", ""),
         ("linkage/inverted_slider_crank", ""),
-        ("linkage/stephenson_3_triad", ""),
+        ("linkage/stephenson_3", ""),
         ("linkage/watt_1", ""),
     ] {
         let file = linkage(name);

@@ -1,7 +1,6 @@
 //! The legs' matrix K solved for u as far as that is safe; each direction left open becomes an unknown.
 
 use super::arithmetic::Arithmetic;
-use crate::algebra::sort;
 
 /// Largest number of unknowns beside the rotation.
 pub const MOST: usize = 4;
@@ -61,7 +60,7 @@ pub fn weak_directions(matrix: &[[f64; 7]; 6]) -> Directions<f64> {
         }
     }
     let mut order: [usize; 6] = std::array::from_fn(|i| i);
-    sort::by(&mut order, |&i, &j| square(&rows[j]).total_cmp(&square(&rows[i])));
+    order.sort_by(|&i, &j| square(&rows[j]).total_cmp(&square(&rows[i])));
     let sizes = order.map(|i| square(&rows[i]).sqrt());
     let rank = sizes.iter().filter(|&&s| s > ZERO * sizes[0]).count();
     let kept = sizes.iter().filter(|&&s| s >= WEAK * sizes[0]).count().clamp(LEAST_KEPT, 6);
