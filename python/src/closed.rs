@@ -71,7 +71,7 @@ impl Loop {
                 });
                 while !work.is_finished() {
                     std::thread::park_timeout(LOOK);
-                    if Python::attach(Python::check_signals).is_err() {
+                    if Python::attach(|py| py.check_signals()).is_err() {
                         stop.store(true, Ordering::Relaxed);
                     }
                 }
