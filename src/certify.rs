@@ -18,7 +18,7 @@
 //!
 //! Rounding: E is computed as a product of six steps. Step j leaves an error of at most `c u |before| |step|`, which the
 //! steps behind it magnify by at most their norm. The constants of a loop are assumed known to a few roundings, or to the error
-//! set by [`Closure::constant_is_off`]. The bounds hold for every loop within these errors, so the proof holds for
+//! set by `Closure::constant_is_off`. The bounds hold for every loop within these errors, so the proof holds for
 //! the loop as given and not only as stored. The twist of an unknown is that of a frame p, z: if the frame is
 //! off by a factor 1 + D, the twist is off by at most `3 |D|` times its lever, `|z| (1 + |p|)`, which may be large even if the
 //! twist is small.

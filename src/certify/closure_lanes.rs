@@ -221,7 +221,7 @@ const TINY: f64 = 1e-280;
 /// The columns at a hidden angle.
 pub type At<S> = [[Lanes<S>; 4]; 6];
 
-/// The [`BRACKETS`], determinants of four columns each.
+/// The brackets, determinants of four columns each.
 pub struct Brackets<S: Simd>([Lanes<S>; 11]);
 
 impl LaneColumns {
