@@ -30,8 +30,8 @@ use std::sync::OnceLock;
 ///
 /// # Example
 /// ```
-/// use looproot::internal::assembly::{Assembly, Roots, Solver, Workspace};
-/// use looproot::internal::kinematics::{closed_loop::{OpenLoop, Variable}, motion::Motion};
+/// use looproot_engine::assembly::{Assembly, Roots, Solver, Workspace};
+/// use looproot_engine::kinematics::{closed_loop::{OpenLoop, Variable}, motion::Motion};
 /// // Six axes, each link turned and shifted against the last.
 /// let link = |k: usize| {
 ///     let k = k as f64;

@@ -28,18 +28,7 @@ impl Freedom {
     /// The freedoms of a chain.
     ///
     /// # Example
-    /// ```
-    /// use looproot::internal::{catalogue, kinematics::freedom::Freedom};
-    ///
-    /// let bennett = catalogue::builtin("bennett_a", &Default::default())?;
-    /// let freedom = Freedom::of(bennett.chain().unwrap());
-    /// assert_eq!((freedom.gruebler(), freedom.rank), (-2, Some(4)));
-    /// assert_eq!(
-    ///     freedom.to_string(),
-    ///     "mobility -2 by Gruebler's count (4 - 6), screw rank 4 in general position"
-    /// );
-    /// # Ok::<(), looproot::internal::error::Error>(())
-    /// ```
+    /// Of Bennett's loop: mobility -2 by Gruebler's count (4 - 6), screw rank 4 in general position.
     #[must_use]
     pub fn of(chain: &Chain) -> Self {
         let kinds = chain.joint_kinds();

@@ -88,7 +88,7 @@ impl<F: Field> Screw<F> {
 /// # Example
 /// Three axes through one point span the rotations about it; what is reciprocal to them are the forces through it.
 /// ```
-/// use looproot::internal::kinematics::screw_system::{Screw, ScrewSystem};
+/// use looproot_engine::kinematics::screw_system::{Screw, ScrewSystem};
 /// use rug::Rational;
 ///
 /// let vector = |v: [i32; 3]| v.map(Rational::from);

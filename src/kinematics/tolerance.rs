@@ -28,11 +28,11 @@ impl Tolerance {
     ///
     /// # Example
     /// ```
-    /// use looproot::internal::kinematics::tolerance::Tolerance;
+    /// use looproot_engine::kinematics::tolerance::Tolerance;
     /// use looproot_algebra::number::Reading;
     /// let tolerance = Tolerance::parse("0.1 mm, 1e-3", &Reading::default())?;
     /// assert_eq!(tolerance, Tolerance { length: 1e-4, angle: 1e-3 });
-    /// # Ok::<(), looproot::internal::error::Error>(())
+    /// # Ok::<(), looproot_engine::error::Error>(())
     /// ```
     pub fn parse(text: &str, reading: &Reading) -> Result<Self> {
         let expected = || Error::Invalid(format!("found the tolerance `{text}`, expected LENGTH,ANGLE, none below 0"));
