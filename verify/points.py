@@ -45,7 +45,7 @@ def at_infinity(base, plate):
 
 
 def directions(points):
-    """Those of the lines through two points, each once."""
+    """Returns the lines that go through two of the points, each once."""
     found = []
     for i in LEGS:
         for j in range(i):
