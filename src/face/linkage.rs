@@ -8,7 +8,7 @@ use crate::derivation::{derive_linkage, sphere_trace, trace, transfer};
 use crate::error::{Error, Result};
 use crate::kinematics::joint::Variable;
 use crate::kinematics::linkage::Given;
-use crate::linkage::answer::solve_asked;
+use crate::mobility::solve_or_move;
 use crate::report::linkage_sweep::{Asked, Traced};
 use crate::report::{linkage, linkage_derivation, linkage_mobility, linkage_sweep, space, sphere, sphere_sweep};
 use crate::sweep::{Range, sweep_linkage, sweep_sphere};
@@ -109,7 +109,7 @@ impl Linkage {
             Kind::Plane(file) => {
                 let case = self.plane_case(file, given)?;
                 let asked = crate::linkage::assembly::Asked { complex, stop: &AtomicBool::new(false) };
-                let answer = solve_asked(&file.linkage, &case.given, file.accuracy(&case), asked)?;
+                let answer = solve_or_move(file, &case, asked)?;
                 linkage::json(file, &[linkage::result(file, &case, 1, &answer, complex)])
             }
             Kind::Sphere(file) => {

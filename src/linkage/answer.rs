@@ -47,6 +47,14 @@ pub struct LinkageFamily {
     pub sample: LinkageMode,
 }
 
+impl LinkageFamily {
+    /// The assemblies near one of them, of which these joints move.
+    #[must_use]
+    pub fn at(linkage: &Linkage, state: &State, dimension: usize, joints: Vec<usize>) -> Self {
+        Self { dimension, joints, sample: mode(linkage, state) }
+    }
+}
+
 /// A group and how it was solved.
 #[derive(Clone, Debug)]
 pub struct LinkageGroup {
@@ -110,11 +118,8 @@ pub fn solve_asked(linkage: &Linkage, given: &[Given], accuracy: Accuracy, asked
         };
         b.real.cmp(&a.real).then_with(angles)
     });
-    let families = found.curves.iter().filter(|family| is_one(&family.state)).map(|family| LinkageFamily {
-        dimension: family.dimension,
-        joints: family.joints.clone(),
-        sample: mode(linkage, &family.state),
-    });
+    let families = found.curves.iter().filter(|family| is_one(&family.state));
+    let families = families.map(|family| LinkageFamily::at(linkage, &family.state, family.dimension, family.joints.clone()));
     let families: Vec<LinkageFamily> = families.collect();
     let verdict = verdict(&found, &modes, &families, exact);
     let groups = found.groups.iter().map(|group| LinkageGroup {

@@ -10,7 +10,6 @@ use crate::assembly::platform::{self, Distances, PlatformAssembly, PlatformSolve
 use crate::assembly::{Roots, Workspace};
 use crate::catalogue::entry::Case;
 use crate::elimination::border::DIMENSION;
-use crate::elimination::platform_incidence::most_poses;
 use crate::elimination::platform_polynomial::PlatformPolynomial;
 use crate::error::{Error, Result};
 use crate::kinematics::platform::{Platform, pose_of};
@@ -28,8 +27,6 @@ pub(super) struct PreparedPlatform {
     /// Whether some coordinate is irrational.
     is_rounded: bool,
     distances: Distances,
-    /// A bound on the number of poses, whatever the legs are, and why.
-    incidence: Option<(usize, &'static str)>,
     solver: PlatformSolver,
     limits: PlatformLimits,
     prepare_us: f64,
@@ -62,7 +59,7 @@ pub fn exact_modes(
     let (mut memory, mut assembly) = (PlatformWorkspace::default(), PlatformAssembly::default());
     solver.solve_up_to(squares, Roots::All, None, &mut memory, &mut assembly);
     if !is_settled(&assembly) {
-        let side = ExactSide { platform, squares, incidence: most_poses(platform), complex: false };
+        let side = ExactSide { platform, squares, incidence: solver.incidence(), complex: false };
         side.settle(&mut Search { solver: &solver, memory: &mut memory, assembly: &mut assembly }, known);
     }
     assembly.modes
@@ -91,9 +88,9 @@ impl PreparedPlatform {
         let start = Instant::now();
         let solver = PlatformSolver::prepare_exact(&exact);
         let prepare_us = start.elapsed().as_secs_f64() * 1e6;
-        let (distances, incidence) = (Distances::new(&exact), most_poses(&exact));
+        let distances = Distances::new(&exact);
         let is_rounded = geometry.base.iter().chain(&geometry.plate).flatten().any(|number| !number.is_exact());
-        Ok(Self { exact, is_rounded, distances, incidence, solver, limits: limits.clone(), prepare_us })
+        Ok(Self { exact, is_rounded, distances, solver, limits: limits.clone(), prepare_us })
     }
 
     /// Finds all poses with the legs of one case.
@@ -113,7 +110,7 @@ impl PreparedPlatform {
         let is_settled_in_f64 = is_settled(assembly);
         if roots == Roots::All && is_asked && !is_settled_in_f64 {
             let start = Instant::now();
-            let (platform, squares, incidence) = (&self.exact, &squares, self.incidence);
+            let (platform, squares, incidence) = (&self.exact, &squares, self.solver.incidence());
             let side = ExactSide { platform, squares, incidence, complex };
             knowledge = side.settle(&mut Search { solver: &self.solver, memory, assembly }, None);
             solve_us += start.elapsed().as_secs_f64() * 1e6;

@@ -107,6 +107,8 @@ pub struct Search<'a> {
     pub roots: Roots,
     /// The number of poses, if it is known.
     pub expected: Option<usize>,
+    /// The most poses that the geometry allows, if a theorem bounds them.
+    pub most: Option<usize>,
     /// The solutions found, without conjugates.
     pub found: &'a mut Vec<Found>,
     /// Number of eigenvalues that belong to no pose.
@@ -117,8 +119,18 @@ pub struct Search<'a> {
     pub followed: bool,
     /// Whether the eigenvalue followed now is one of two conjugate ones.
     pub followed_pair: bool,
+    /// Points with hardly any N that the eigenvalues followed now lead to.
+    doubtful: Vec<Doubtful>,
     /// Real rotations that led to no regular pose and may belong to a self-motion.
     pub stray: [Option<Eight<f64>>; STRAYS],
+}
+
+/// A point at which N may be 0, so that it is no pose, or a pose very far away.
+#[derive(Clone, Copy, Debug)]
+struct Doubtful {
+    start: Eight<Complex<f64>>,
+    /// The eigenvalue that leads to it.
+    eigenvalue: usize,
 }
 
 /// The result of following one eigenvalue.
@@ -144,11 +156,13 @@ impl<'a> Search<'a> {
             curvature: &numbers.curvature,
             roots,
             expected,
+            most: None,
             found,
             null: 0,
             lost: 0,
             followed: false,
             followed_pair: false,
+            doubtful: Vec::new(),
             stray: [None; STRAYS],
         }
     }
@@ -202,6 +216,9 @@ impl<'a> Search<'a> {
         for found in self.found.iter_mut() {
             found.eigenvalues = 0;
         }
+        self.doubtful.clear();
+        let weight = |value: Complex<f64>| if value.im > 0.0 { 2 } else { 1 };
+        let mut outcomes = [Outcome::Pose; DIMENSION];
         for k in 0..DIMENSION {
             let value = spectrum.values[k];
             let near_real = value.im.abs() <= NEAR_REAL * (1.0 + value.norm());
@@ -220,13 +237,31 @@ impl<'a> Search<'a> {
             if outcome != Outcome::Pose && point_leg && value.im <= POINT_LEG * (1.0 + value.norm()) {
                 outcome = self.coincident_ends(k, source, spectrum).unwrap_or(outcome);
             }
-            let weight = if value.im > 0.0 { 2 } else { 1 };
-            match outcome {
-                Outcome::Pose => {}
-                Outcome::Null => self.null += weight,
-                Outcome::Nothing => self.lost += weight,
+            outcomes[k] = outcome;
+        }
+        if !self.has_most_poses() {
+            for Doubtful { start, eigenvalue } in std::mem::take(&mut self.doubtful) {
+                if self.far_away(self.wide, &start.map(wide)) {
+                    outcomes[eigenvalue] = Outcome::Pose;
+                }
             }
         }
+        // Where a theorem allows no further pose, the other eigenvalues have none.
+        let has_most = self.has_most_poses();
+        for (outcome, value) in outcomes.into_iter().zip(spectrum.values) {
+            match outcome {
+                Outcome::Pose => {}
+                Outcome::Nothing if !has_most => self.lost += weight(value),
+                Outcome::Null | Outcome::Nothing => self.null += weight(value),
+            }
+        }
+    }
+
+    /// Returns whether as many certified poses were found as a theorem allows.
+    fn has_most_poses(&self) -> bool {
+        let certified =
+            self.found.iter().filter(|found| found.certificate.is_some()).map(|found| if found.real { 1 } else { 2 });
+        self.roots == Roots::All && self.most.is_some_and(|most| certified.sum::<usize>() >= most)
     }
 
     /// Follows eigenvalue k to a real pose at which the ends of legs of length zero coincide.
@@ -287,8 +322,8 @@ impl<'a> Search<'a> {
             }
             let polished = polish(self.legs, &start).filter(|p| !near_null(p));
             let Some(polished) = polished else {
-                if raw < NEARLY_NULL && !multiple && self.far_away(self.wide, &start.map(wide)) {
-                    outcome = Outcome::Pose;
+                if raw < NEARLY_NULL && !multiple {
+                    self.doubtful.push(Doubtful { start, eigenvalue: k });
                 }
                 continue;
             };

@@ -18,6 +18,7 @@ use crate::elimination::affine_platform::AffineRelation;
 use crate::elimination::border::{BorderBasis, DIMENSION, Reals};
 use crate::elimination::multiple_pose::ExactPoses;
 use crate::elimination::pencil::Square;
+use crate::elimination::platform_incidence::most_poses;
 use crate::kinematics::motion::Vector;
 use crate::kinematics::platform::Platform;
 use crate::solve::eigen::Method;
@@ -58,6 +59,8 @@ pub struct PlatformSolver {
     triangle: Option<TriangleRoute>,
     /// The exact points if base and moving platform are affine images of the same six points, and the number of poses then.
     affine: Option<(Box<Platform<Rational>>, usize)>,
+    /// A bound on the number of poses for legs of any length, and its reason.
+    incidence: Option<(usize, &'static str)>,
 }
 
 /// Scratch memory, reused from call to call; each thread needs its own.
@@ -93,17 +96,24 @@ impl PlatformSolver {
     pub fn prepare_exact(platform: &Platform<Rational>) -> Self {
         let frame = Frame::new(platform);
         let affine = AffineRelation::of(platform).map(|relation| (Box::new(platform.clone()), relation.bound().poses));
+        let incidence = most_poses(platform);
         let charts = std::array::from_fn(|choice| Chart::new(&frame.platform, choice));
         let nearest = |points: &[Vector<Rational>; 6]| points.each_ref().map(|p| p.each_ref().map(nearest_f64));
         let platform = Platform { base: nearest(&platform.base), plate: nearest(&platform.plate) };
         let (reflection, triangle) = (Reflection::of(&platform), TriangleRoute::of(&frame.platform));
-        Self { platform, frame, charts, reflection, triangle, affine }
+        Self { platform, frame, charts, reflection, triangle, affine, incidence }
     }
 
     /// Returns the geometry as given.
     #[must_use]
     pub fn platform(&self) -> &Platform<f64> {
         &self.platform
+    }
+
+    /// Returns the bound on the number of poses that a theorem on the geometry gives, and its reason.
+    #[must_use]
+    pub fn incidence(&self) -> Option<(usize, &'static str)> {
+        self.incidence
     }
 
     /// Returns the 40 x 40 matrix whose eigenvalues are computed for these legs; `None` if the geometry is special.
@@ -293,6 +303,7 @@ impl PlatformSolver {
         let squares = numbers.legs.each_ref().map(|leg| leg.square);
         let PlatformWorkspace { basis, spectrum, found, general } = workspace;
         let mut search = Search::going_on(&numbers, roots, expected, found);
+        search.most = self.incidence.map(|(most, _)| most);
         if let Some(triangle) = &self.triangle
             && triangle.solve(&self.frame.platform, &squares, &mut search)
             && search.is_done()

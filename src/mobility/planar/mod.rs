@@ -1,5 +1,6 @@
 //! Whether a planar linkage moves: exactly at an assembly of the file, or by its count and an assembly that is found.
 
+mod motion;
 mod series;
 mod system;
 
@@ -13,6 +14,7 @@ use super::spatial::Shafts;
 use crate::verdict::{Code, Proof};
 use rug::Rational;
 pub(in crate::internal::mobility) use series::Reduced;
+pub use motion::solve_or_move;
 use series::Local;
 use system::System;
 

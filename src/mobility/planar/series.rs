@@ -256,6 +256,11 @@ impl System {
         doubled(1_usize.checked_shl(u32::try_from(twos).unwrap_or(u32::MAX)).filter(|_| twos < 60).unwrap_or(usize::MAX))
     }
 
+    /// Returns a basis of the first-order motions, as rates of all variables.
+    pub(super) fn motions(&self) -> Vec<Vec<Rational>> {
+        Solver::new(self).motions
+    }
+
     /// Decides what the assemblies near this one are.
     pub(super) fn local(&self) -> Found {
         let solver = Solver::new(self);

@@ -36,6 +36,8 @@ pub(super) struct System {
     pub(super) cycles: Vec<Cycle>,
     /// Number of classes that turn: the first variables, half-angle tangents of their turns from the assembly.
     pub(super) turns: usize,
+    /// The variable of the turn of every body; `None` of those at rest.
+    bodies: Vec<Option<usize>>,
     /// The displacements at the assembly: the other variables are their changes.
     pub(super) slides: Vec<Rational>,
     /// What is left of every cycle at the assembly.
@@ -78,10 +80,12 @@ impl System {
         // The rotation of every class at the configuration.
         let mut turns: Vec<Option<Gaussian>> = vec![None; equations.classes];
         let mut rest = 0;
+        let mut classes = Vec::with_capacity(linkage.bodies.len());
         for body in 0..linkage.bodies.len() {
             let (class, own) = closure.class_of(&state, body).ok_or_else(undecided)?;
             let own = own.z.exact.as_ref().and_then(crate::linkage::tower::Surd::to_gaussian).ok_or_else(undecided)?;
             let turn = configuration.turns[body].mul(&conjugate(&own));
+            classes.push(class);
             if body == linkage.ground {
                 rest = class;
             }
@@ -102,7 +106,8 @@ impl System {
         }
         let turns: Vec<Gaussian> = turns.into_iter().collect::<Option<_>>().ok_or_else(undecided)?;
         let slides = displacements(linkage, configuration, &equations, &turns)?;
-        let system = Self::of(&equations, &turns, rest, slides);
+        let bodies = classes.into_iter().map(|class| variable(class, rest)).collect();
+        let system = Self { bodies, ..Self::of(&equations, &turns, rest, slides) };
         let size = linkage.bodies.iter().flat_map(|body| &body.points).map(|(_, at)| self::size(at)).fold(1e-9, f64::max);
         if system.gap() > OPEN * size {
             let message = format!(
@@ -115,7 +120,7 @@ impl System {
     }
 
     fn of(equations: &Equations<Isotropic<Gaussian>>, turns: &[Gaussian], rest: usize, slides: Vec<Rational>) -> Self {
-        let variable = |class: usize| (class != rest).then(|| if class > rest { class - 1 } else { class });
+        let variable = |class: usize| variable(class, rest);
         let mut cycles = Vec::new();
         let mut gaps = Vec::new();
         for (number, cycle) in equations.cycles.iter().enumerate() {
@@ -140,7 +145,7 @@ impl System {
             cycles.push(Cycle { turning, sliding });
             gaps.push(gap);
         }
-        Self { cycles, turns: equations.classes - 1, slides, gaps }
+        Self { cycles, turns: equations.classes - 1, bodies: Vec::new(), slides, gaps }
     }
 
     /// Returns the number of loops.
@@ -151,6 +156,11 @@ impl System {
     /// Returns the number of variables.
     pub(super) fn variables(&self) -> usize {
         self.turns + self.slides.len()
+    }
+
+    /// Returns the variable of the turn of a body; `None` where it is at rest.
+    pub(super) fn variable_of(&self, body: usize) -> Option<usize> {
+        self.bodies[body]
     }
 
     /// Returns whether the assembly closes exactly.
@@ -186,6 +196,11 @@ impl System {
         }
         rows
     }
+}
+
+/// The variable of the turn of a class; `None` of the one at rest.
+fn variable(class: usize, rest: usize) -> Option<usize> {
+    (class != rest).then(|| if class > rest { class - 1 } else { class })
 }
 
 fn conjugate(z: &Gaussian) -> Gaussian {

@@ -6,8 +6,8 @@ use super::output::Output;
 use super::solve::stop_on_interrupt;
 use looproot::internal::catalogue::LinkageFile;
 use looproot::internal::error::Error;
-use looproot::internal::linkage::answer::solve_asked;
 use looproot::internal::linkage::assembly::Asked;
+use looproot::internal::mobility::solve_or_move;
 use looproot::internal::report::linkage as report;
 use looproot::internal::verdict::{Code, Proof, Status, Verdict};
 use looproot::internal::view::drawable;
@@ -33,8 +33,7 @@ pub fn run(options: &SolveOptions, file: &LinkageFile, output: Output) -> Result
         let case = &file.cases[index];
         let line = case.given.first().map_or(case.line, looproot::internal::kinematics::linkage::Given::line);
         let asked = Asked { complex: options.complex, stop: &stop };
-        let answer = solve_asked(&file.linkage, &case.given, file.accuracy(case), asked)
-            .map_err(|error| error.at(&options.mechanism, line))?;
+        let answer = solve_or_move(file, case, asked).map_err(|error| error.at(&options.mechanism, line))?;
         exit = exit.max(code(&answer.verdict));
         // Complex assemblies that were asked for and not looked for.
         if options.complex && answer.verdict.code == Code::BoxesExhausted {
