@@ -145,6 +145,11 @@ pub(super) trait Running: Sync {
     ) -> Result<Proved<Self::Mode>> {
         Ok(Err(Code::NoExactRoute))
     }
+
+    /// Why they are, in words.
+    fn because(&self) -> &'static str {
+        ""
+    }
 }
 
 /// Samples, with the steps that some of them are, and the links between them, or the reason why they are not proved.
@@ -278,7 +283,7 @@ pub(super) fn follow<R: Running>(
     let (branches, limits) = web.branches(ends);
     let verdict = SweepVerdict::none();
     let mut sweep = AssemblySweep { joint, range, samples, branches, limits, complex_limits: None, is_full_turn, verdict };
-    sweep.verdict = SweepVerdict::of_assemblies(&sweep, unproved);
+    sweep.verdict = SweepVerdict::of_assemblies(&sweep, unproved, run.because());
     Ok(sweep)
 }
 

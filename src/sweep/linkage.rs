@@ -3,6 +3,8 @@
 use super::Range;
 use super::assemblies::{AssemblySample, AssemblySweep, Proved, Running, follow, is_listed};
 use super::dyads::Proof;
+use super::linkage_relation::BodyRelations;
+use super::linking::{Linking, links};
 use crate::algebra::number::Angle;
 use crate::algebra::ring::exact_cos_sin;
 use crate::assembly::wrapped;
@@ -28,8 +30,8 @@ struct Run<'a> {
     held: Vec<Given>,
     /// The size of the linkage: places are compared in parts of it.
     size: f64,
-    /// Where the linkage consists of dyads.
-    proof: Option<Proof<LinkageMode>>,
+    /// By its dyads, or by the relation of the input and the angle of a body.
+    proof: Option<Box<dyn Linking<LinkageMode>>>,
 }
 
 impl Run<'_> {
@@ -101,10 +103,22 @@ impl Running for Run<'_> {
 
     fn proved(&self, range: Range, is_full_turn: bool, samples: &[AssemblySample<LinkageMode>]) -> Result<Proved<LinkageMode>> {
         match &self.proof {
-            Some(proof) => proof.links(range, is_full_turn, samples, |input| self.sample(input, &mut ())),
+            Some(proof) => links(&**proof, range, is_full_turn, samples, |input| self.sample(input, &mut ())),
             None => Ok(Err(Code::NoExactRoute)),
         }
     }
+
+    fn because(&self) -> &'static str {
+        self.proof.as_ref().map_or("", |proof| proof.because())
+    }
+}
+
+/// What proves the branches, if anything does.
+fn proof(linkage: &Linkage, held: &[Given], joint: usize) -> Option<Box<dyn Linking<LinkageMode>>> {
+    if let Some(dyads) = Proof::of(linkage, held, joint) {
+        return Some(Box::new(dyads));
+    }
+    Some(Box::new(BodyRelations::of(linkage, held, joint)?))
 }
 
 /// Sweeps a joint of a linkage, on all threads of the current pool, while the other given values are held. `accuracy` says what is
@@ -120,7 +134,7 @@ pub fn sweep_linkage(
     tick: impl Fn() + Sync,
 ) -> Result<LinkageSweep> {
     let held = held_beside(given, joint);
-    let proof = Proof::of(linkage, &held, joint);
+    let proof = proof(linkage, &held, joint);
     let points = linkage.bodies.iter().flat_map(|body| &body.points);
     let size = points.map(|(_, at)| at.re.to_f64().hypot(at.im.to_f64())).fold(1e-9, f64::max);
     let run = Run { linkage, joint, held, size, proof };
@@ -149,5 +163,54 @@ fn is_rounded(held: &[Given], accuracy: Accuracy) -> bool {
         Accuracy::Exact => false,
         Accuracy::Enclosed => held.iter().any(|one| matches!(one, Given::Turn { within: Some(_), .. })),
         Accuracy::Rounded => true,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalogue::{Any, Options, builtin_any};
+    use std::f64::consts::PI;
+
+    type Limits = Vec<(f64, bool)>;
+
+    /// The limit positions of a turn, and the beginnings of the branches with their circuits.
+    fn turned(run: &Run<'_>, steps: usize) -> (Code, Limits, Vec<(f64, usize)>) {
+        let range = Range { from: -PI, to: PI, steps };
+        let sweep = follow(run, run.joint, range, true, || ()).unwrap();
+        let limits = sweep.limits.iter().map(|limit| (limit.input, limit.is_largest)).collect();
+        (sweep.verdict.code, limits, sweep.branches.iter().map(|branch| (branch.from, branch.circuit)).collect())
+    }
+
+    /// The branches by dyads, by the relation and by distances are the same.
+    #[test]
+    fn proofs_of_a_sweep_agree() {
+        let mut compared = [0, 0];
+        for name in ["four_bar_coupler", "watt_2", "stephenson_1", "stephenson_3", "stephenson_2", "double_butterfly_16", "3rrr"] {
+            let Any::Linkage(file) = builtin_any(&format!("linkage/{name}"), &Options::default()).unwrap() else { panic!("{name}") };
+            let (given, _) = file.given(&file.cases[0]);
+            let joint = given[0].joint().unwrap();
+            let linkage = &file.linkage;
+            let held = held_beside(given, joint);
+            let run = |proof| Run { linkage, joint, held: held.clone(), size: 1.0, proof };
+            let by_distances = turned(&run(None), 60);
+            let relation = BodyRelations::of(linkage, &held, joint).map(|proof| Box::new(proof) as Box<dyn Linking<_>>);
+            let dyads = Proof::of(linkage, &held, joint).map(|proof| Box::new(proof) as Box<dyn Linking<_>>);
+            for (kind, proof) in [dyads, relation].into_iter().enumerate() {
+                let Some(proof) = proof else { continue };
+                let found = turned(&run(Some(proof)), 60);
+                assert_eq!(found.0, Code::BranchesProved, "{name} {kind}");
+                assert_eq!(found.1.len(), by_distances.1.len(), "{name} {kind}");
+                for (own, other) in found.1.iter().zip(&by_distances.1) {
+                    assert!((own.0 - other.0).abs() < 1e-6 && own.1 == other.1, "{name} {kind}: {own:?} {other:?}");
+                }
+                assert_eq!(found.2.len(), by_distances.2.len(), "{name} {kind}");
+                for (own, other) in found.2.iter().zip(&by_distances.2) {
+                    assert!((own.0 - other.0).abs() < 1e-6 && own.1 == other.1, "{name} {kind}: {own:?} {other:?}");
+                }
+                compared[kind] += 1;
+            }
+        }
+        assert!(compared[0] >= 4 && compared[1] >= 5, "{compared:?}");
     }
 }

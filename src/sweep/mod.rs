@@ -14,6 +14,8 @@ mod dyads;
 mod exact;
 mod hidden;
 mod linkage;
+mod linkage_relation;
+mod linking;
 mod nodes;
 mod platform;
 mod sample;

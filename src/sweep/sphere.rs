@@ -3,6 +3,7 @@
 use super::Range;
 use super::assemblies::{AssemblySample, AssemblySweep, Proved, Running, follow, is_listed};
 use super::dyads::Proof;
+use super::linking::{Linking, links};
 use crate::algebra::number::{Angle, HalfTangent, nearest_f64};
 use crate::assembly::wrapped;
 use crate::catalogue::root;
@@ -83,9 +84,13 @@ impl Running for Run<'_> {
         mode
     }
 
+    fn because(&self) -> &'static str {
+        self.proof.as_ref().map_or("", Linking::because)
+    }
+
     fn proved(&self, range: Range, is_full_turn: bool, samples: &[AssemblySample<SphereMode>]) -> Result<Proved<SphereMode>> {
         match &self.proof {
-            Some(proof) => proof.links(range, is_full_turn, samples, |input| self.sample(input, &mut ())),
+            Some(proof) => links(proof, range, is_full_turn, samples, |input| self.sample(input, &mut ())),
             None => Ok(Err(Code::NoExactRoute)),
         }
     }

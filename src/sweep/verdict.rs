@@ -34,9 +34,6 @@ fn reason(code: Code) -> &'static str {
     }
 }
 
-/// The reason why branches of assemblies are proved.
-const BY_DYADS: &str = "between all critical inputs, the real roots of exact polynomials, no dyad is stretched or folded, so that the \
-                        signs of its dyads name every assembly; at each critical input the multiplicity of the root says which end";
 /// The reason why they are not proved.
 const BY_DISTANCES: &str =
     "not proved: the assemblies of every input are, but between the inputs branches are joined by their distances";
@@ -64,8 +61,8 @@ impl SweepVerdict {
         Self { status, proof: proof.of_rounded(is_rounded), code, reason: reason(code).to_owned() }
     }
 
-    /// The verdict on a sweep of assemblies whose links are all proved, or not, for this reason.
-    pub(super) fn of_assemblies<M>(sweep: &AssemblySweep<M>, unproved: Option<Code>) -> Self {
+    /// The verdict on a sweep of assemblies whose links are all proved, because of what is said, or not, for this reason.
+    pub(super) fn of_assemblies<M>(sweep: &AssemblySweep<M>, unproved: Option<Code>, because: &str) -> Self {
         let code = match unproved {
             _ if sweep.unresolved() > 0 => Code::BranchesNotMatched,
             None => Code::BranchesProved,
@@ -77,7 +74,7 @@ impl SweepVerdict {
             _ => (Status::Incomplete, Proof::None),
         };
         let reason = match code {
-            Code::BranchesProved => BY_DYADS,
+            Code::BranchesProved => because,
             Code::NoExactRoute => BY_DISTANCES,
             _ => reason(code),
         };

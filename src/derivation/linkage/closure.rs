@@ -81,6 +81,9 @@ pub struct InputOutput {
     pub joints: usize,
     /// The polynomial in both.
     pub polynomial: Polynomial<Int>,
+    /// A factor of the determinant in the first variable alone, which the polynomial is without: at its zeros the matrix is singular for
+    /// all angles of the body.
+    pub content: Polynomial<Int>,
     /// Whether it equals the closure polynomial at the value of the input.
     pub agrees: bool,
 }
@@ -92,8 +95,8 @@ pub struct LinkageDerivation {
     pub polynomials: Vec<GroupPolynomial>,
     /// The relation of the output and the first given joint, where the others are held.
     pub input_output: Option<InputOutput>,
-    /// What relates them.
-    pub(super) relation: Option<Relation>,
+    /// What relates the body of each polynomial and that joint.
+    pub(super) relations: Vec<Option<Relation>>,
     /// The numbers of assemblies of the groups, in the order in which the groups are solved.
     pub groups: Vec<(Vec<Vec<usize>>, usize)>,
     /// The closure equations of the best polynomial, two for every cycle, in `variables`.
@@ -105,6 +108,14 @@ pub struct LinkageDerivation {
     pub is_bounded: bool,
     /// The reasons why some polynomials are missing.
     pub warnings: Vec<String>,
+}
+
+impl LinkageDerivation {
+    /// Returns the relation of the first given joint and the body of another one of the polynomials.
+    #[must_use]
+    pub fn relation_to(&self, linkage: &Linkage, given: &[Given], polynomial: usize) -> Option<InputOutput> {
+        relate(linkage, given.first()?, self.relations.get(polynomial)?.as_ref()?, self.polynomials.get(polynomial)?)
+    }
 }
 
 /// A variable of the closure equations.
@@ -282,8 +293,9 @@ pub fn derive_linkage(linkage: &Linkage, given: &[Given]) -> Result<LinkageDeriv
         }
         polynomials.extend(own);
     }
-    let relation = polynomials.first().and_then(|best| Relation::of(linkage, given, &found, &merged, best));
-    let input_output = polynomials.first().zip(relation.as_ref());
+    let relations: Vec<Option<Relation>> =
+        polynomials.iter().map(|own| Relation::of(linkage, given, &found, &merged, own)).collect();
+    let input_output = polynomials.first().zip(relations.first().and_then(Option::as_ref));
     let input_output = input_output.and_then(|(best, relation)| relate(linkage, &given[0], relation, best));
     let groups = found.groups.iter().map(|group| (group.bodies.clone(), group.count)).collect();
     let part = polynomials.first().and_then(|best| {
@@ -293,7 +305,7 @@ pub fn derive_linkage(linkage: &Linkage, given: &[Given]) -> Result<LinkageDeriv
     let is_bounded = part.as_ref().is_some_and(|(_, part)| part.is_bounded());
     let equations = part.and_then(|(best, part)| part.equations(best.against));
     let (variables, equations) = equations.unwrap_or_default();
-    Ok(LinkageDerivation { polynomials, input_output, relation, groups, equations, variables, is_bounded, warnings })
+    Ok(LinkageDerivation { polynomials, input_output, relations, groups, equations, variables, is_bounded, warnings })
 }
 
 const WITHOUT: &str =
@@ -412,6 +424,11 @@ impl Relation {
 
     /// Returns the polynomial in input, a half-angle tangent or a part of the direction of the joint, and output.
     pub fn polynomial(&self, linkage: &Linkage) -> Option<Polynomial<Int>> {
+        self.factors(linkage).map(|[polynomial, _]| polynomial)
+    }
+
+    /// Returns that polynomial and the factor of the determinant in the input alone.
+    fn factors(&self, linkage: &Linkage) -> Option<[Polynomial<Int>; 2]> {
         let part = Part::new(linkage, &self.held, self.joints.clone())?;
         let of = linkage.joints[self.input].of;
         let mut exact = part.exact.clone();
@@ -442,10 +459,10 @@ impl Relation {
         }
         // Factors of the input alone are inputs at which the matrix is singular for all outputs.
         let content = polynomial.content_in(1);
-        if let Some(rest) = polynomial.checked_div_exact(&content).filter(|_| content.to_constant().is_none()) {
-            polynomial = rest;
+        match polynomial.checked_div_exact(&content).filter(|_| content.to_constant().is_none()) {
+            Some(rest) => Some([rest, content]),
+            None => Some([polynomial, Polynomial::one()]),
         }
-        Some(polynomial)
     }
 
     /// Returns the same polynomial with the input in metres, if it is a displacement.
@@ -459,13 +476,13 @@ impl Relation {
 
 /// Returns the polynomial of the first given joint and the body of the best polynomial.
 fn relate(linkage: &Linkage, one: &Given, relation: &Relation, best: &GroupPolynomial) -> Option<InputOutput> {
-    let polynomial = relation.polynomial(linkage)?;
+    let [polynomial, content] = relation.factors(linkage)?;
     let at_input = InputNumber::of(one).and_then(|number| number.put(&polynomial)?.to_univariate(1));
     let agrees = at_input.is_some_and(|own| is_multiple(&own, &best.coefficients));
-    let polynomial = relation.in_metres(polynomial, linkage)?;
+    let [polynomial, content] = [relation.in_metres(polynomial, linkage)?, relation.in_metres(content, linkage)?];
     let Relation { input, is_turn, body, against, .. } = *relation;
     let joints = relation.joints.len();
-    Some(InputOutput { input, is_turn, body, against, held: relation.held_joints(), joints, polynomial, agrees })
+    Some(InputOutput { input, is_turn, body, against, held: relation.held_joints(), joints, polynomial, content, agrees })
 }
 
 /// The value of an input as a relation has it.

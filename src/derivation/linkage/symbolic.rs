@@ -214,7 +214,8 @@ pub fn derive_linkage_with_symbols(
         Error::Unsupported(message.to_owned())
     };
     let base = derive_linkage(linkage, given)?;
-    let (relation, own) = base.relation.zip(base.input_output).ok_or_else(none)?;
+    let relation = base.relations.into_iter().next().flatten();
+    let (relation, own) = relation.zip(base.input_output).ok_or_else(none)?;
     let (symbols, numbers) = chosen(linkage, &relation.joints, wanted)?;
     let mut source = Relations { linkage, relation: &relation, symbols: &symbols, degrees: [0, 0] };
     let first = source.at(&Values::Scattered.start(symbols.len())).ok_or_else(none)?;

@@ -6,11 +6,9 @@
 mod critical;
 mod form;
 
-use super::Range;
-use super::assemblies::{AssemblySample, Link, Proved};
+use super::assemblies::{AssemblySample, Link};
+use super::linking::Linking;
 use crate::algebra::ring::Ring;
-use crate::algebra::sort;
-use crate::error::Result;
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::linkage::{Given, Linkage, Pair};
 use crate::linkage::answer::LinkageMode;
@@ -24,16 +22,6 @@ use critical::{Count, Counted, Critical, Criticals, Reading};
 use form::Form;
 use rug::Rational;
 use std::collections::BTreeSet;
-
-/// Assemblies are looked at this far on both sides of a critical input, in radians or parts of the range: two that meet there are
-/// the square root of that apart.
-const REACH: f64 = 1e-9;
-/// A part of the distance to the next critical input.
-const PART: f64 = 0.25;
-/// The least of these distances: f64 has room for the sides.
-const LEAST: f64 = 1e-13;
-/// Inputs are no farther apart than this, in radians.
-const LONGEST: f64 = 1.5;
 
 type Sample<M> = AssemblySample<M>;
 /// The signs of all dyads.
@@ -116,107 +104,32 @@ impl Proof<SphereMode> {
     }
 }
 
-impl<M: Clone> Proof<M> {
+impl<M> Linking<M> for Proof<M> {
     fn variable(&self) -> Variable {
         if self.criticals.is_turn() { Variable::Rotation } else { Variable::Translation }
     }
 
-    /// Returns the samples with those beside all critical inputs, and how the assemblies of each pass into those of the next one.
-    pub fn links(
-        &self,
-        range: Range,
-        is_full_turn: bool,
-        samples: &[Sample<M>],
-        sample: impl Fn(f64) -> Result<Sample<M>>,
-    ) -> Result<Proved<M>> {
-        let Some(inputs) = self.inputs(range, is_full_turn, samples) else {
-            return Ok(Err(Code::SingularNotDecided));
-        };
-        let mut nodes: Vec<(Sample<M>, Option<usize>)> = Vec::new();
-        for (input, step) in inputs {
-            let own = match step {
-                Some(step) => samples[step].clone(),
-                None => sample(input)?,
-            };
-            if !own.is_regular {
-                return Ok(Err(Code::BranchesNotMatched));
-            }
-            nodes.push((own, step));
-        }
-        let signs = |(sample, _): &(Sample<M>, Option<usize>)| -> Option<Vec<Signs>> {
+    fn criticals(&self) -> Vec<f64> {
+        self.criticals.list.iter().map(|critical| critical.value).collect()
+    }
+
+    fn because(&self) -> &'static str {
+        "between all critical inputs, the real roots of exact polynomials, no dyad is stretched or folded, so that the signs of its dyads \
+         name every assembly; at each critical input the multiplicity of the root says which end"
+    }
+
+    fn link(&self, samples: [&Sample<M>; 2], to: f64) -> std::result::Result<Link, Code> {
+        let signs = |sample: &Sample<M>| -> Option<Vec<Signs>> {
             sample.modes.iter().map(|mode| (self.signs)(mode, sample.input)).collect()
         };
-        let Some(signs) = nodes.iter().map(signs).collect::<Option<Vec<_>>>() else {
-            return Ok(Err(Code::BranchesNotMatched));
-        };
-        let mut links = Vec::new();
-        for k in 1..nodes.len() {
-            let ends = [nodes[k - 1].0.input, nodes[k].0.input];
-            match self.link(ends, [&signs[k - 1], &signs[k]]) {
-                Ok(link) => links.push(link),
-                Err(code) => return Ok(Err(code)),
-            }
-        }
-        if let (true, Some((first, _)), Some((last, _))) = (is_full_turn, nodes.first(), nodes.last()) {
-            let ends = [last.input, first.input + (range.to - range.from)];
-            match self.link(ends, [&signs[signs.len() - 1], &signs[0]]) {
-                Ok(link) => links.push(Link { is_ring: true, ..link }),
-                Err(code) => return Ok(Err(code)),
-            }
-        }
-        Ok(Ok((nodes, links)))
+        let [Some(from), Some(into)] = samples.map(signs) else { return Err(Code::BranchesNotMatched) };
+        self.link_of_signs([samples[0].input, to], [&from, &into])
     }
+}
 
-    /// Returns the inputs to look at, with the steps whose samples they are, in the order of the sweep.
-    fn inputs(&self, range: Range, is_full_turn: bool, samples: &[Sample<M>]) -> Option<Vec<(f64, Option<usize>)>> {
-        let values: Vec<f64> = self.criticals.list.iter().map(|critical| critical.value).collect();
-        let all = range.turned(&values, self.variable());
-        let span = (range.to - range.from).abs();
-        let whole = if self.criticals.is_turn() { 1.0 } else { span };
-        let mut reaches = Vec::new();
-        for (k, input) in all.iter().enumerate() {
-            let others = all.iter().enumerate().filter(|(j, _)| *j != k).map(|(_, other)| (other - input).abs());
-            let ends = [range.from, range.to].map(|end| (end - input).abs());
-            let ends = ends.into_iter().filter(|gap| *gap > 0.0 && !is_full_turn);
-            let gap = others.chain(ends).fold(f64::INFINITY, f64::min);
-            let reach = (REACH * whole).min(PART * gap);
-            if reach < LEAST * (1.0 + input.abs()) {
-                return None;
-            }
-            reaches.push(reach);
-        }
-        let is_in = |input: f64| (input - range.from) * (input - range.to) <= 0.0;
-        let is_beside = |input: f64| all.iter().zip(&reaches).any(|(one, reach)| (one - input).abs() <= 2.0 * reach);
-        let steps = samples.iter().enumerate().map(|(step, sample)| (sample.input, Some(step)));
-        let steps = steps.filter(|(input, _)| !is_beside(*input));
-        let sides = all.iter().zip(&reaches).flat_map(|(one, reach)| [one - reach, one + reach]);
-        let sides = sides.filter(|input| is_in(*input)).map(|input| (input, None));
-        let mut inputs: Vec<(f64, Option<usize>)> = steps.chain(sides).collect();
-        let forward = range.to > range.from;
-        sort::by(&mut inputs, |a, b| if forward { a.0.total_cmp(&b.0) } else { b.0.total_cmp(&a.0) });
-        if !self.criticals.is_turn() {
-            return Some(inputs);
-        }
-        let mut filled: Vec<(f64, Option<usize>)> = Vec::new();
-        for (input, step) in inputs {
-            if let Some((last, _)) = filled.last().copied() {
-                let mut parts = 1.0;
-                while (input - last).abs() > LONGEST * parts {
-                    parts += 1.0;
-                }
-                let mut k = 1.0;
-                while k < parts {
-                    filled.push((last + (input - last) * (k / parts), None));
-                    k += 1.0;
-                }
-            }
-            filled.push((input, step));
-        }
-        Some(filled)
-    }
-
+impl<M> Proof<M> {
     /// Returns how assemblies with these signs at two inputs pass into each other.
-    fn link(&self, [from, to]: [f64; 2], signs: [&[Signs]; 2]) -> std::result::Result<Link, Code> {
+    fn link_of_signs(&self, [from, to]: [f64; 2], signs: [&[Signs]; 2]) -> std::result::Result<Link, Code> {
         let inside = self.criticals.between(from, to).ok_or(Code::SingularNotDecided)?;
         let all: [BTreeSet<&Signs>; 2] = signs.map(|list| list.iter().collect());
         if all.iter().zip(signs).any(|(set, list)| set.len() != list.len()) {

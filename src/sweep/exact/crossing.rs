@@ -7,11 +7,8 @@ use crate::algebra::sort;
 use crate::algebra::univariate::Univariate;
 use crate::assembly::wrapped;
 use crate::kinematics::closed_loop::Variable;
-use crate::mechanism::InputCurve;
-use crate::solve::curve::INPUT;
-use crate::sweep::bridge::{Bridge, Fate, mode_at};
-use crate::sweep::sample::Sample;
-use crate::sweep::track::{Destination, Fold, follow};
+use crate::sweep::bridge::{Bridge, Fate};
+use crate::sweep::track::Fold;
 use crate::verdict::Code;
 use rug::Rational;
 use std::f64::consts::{PI, TAU};
@@ -23,6 +20,22 @@ const SAME: f64 = 1e-6;
 const GAPS: usize = 4;
 /// Rectangles about a branch are tried with these multiples of what it rises.
 const HEIGHTS: [i32; 3] = [1, 3, 10];
+
+/// The modes at two neighbouring inputs, in the order of the sweep.
+pub(in crate::internal::sweep) trait Ends {
+    /// The inputs: radians, or lengths.
+    fn inputs(&self) -> [f64; 2];
+
+    /// An output of every mode of an end: radians, or lengths.
+    fn outputs(&self, end: usize, output: usize) -> Vec<f64>;
+
+    /// The limit position in which two modes of an end meet, whose closure polynomial has a simple turning point there; its place is
+    /// none where it is not known.
+    ///
+    /// # Errors
+    /// The reason where the two modes do not meet in one.
+    fn limit(&self, end: usize, modes: [usize; 2]) -> Result<Option<Fold>, Code>;
+}
 
 /// Two neighbouring inputs in a chart.
 pub(super) struct Piece {
@@ -63,7 +76,7 @@ fn apart(kind: Variable, a: f64, b: f64) -> f64 {
 }
 
 /// The real roots at an input, each with the one mode that has it.
-fn sheets(output: &Output, curve: &PlaneCurve, s: &Rational, sample: &Sample) -> Result<Vec<Sheet>, Code> {
+fn sheets(output: &Output, curve: &PlaneCurve, s: &Rational, values: &[f64]) -> Result<Vec<Sheet>, Code> {
     let polynomial = curve.at(s);
     let degree = polynomial.degree().ok_or(Code::BranchesNotMatched)?;
     let mut found: Vec<(Option<Rational>, f64)> = Vec::new();
@@ -79,10 +92,9 @@ fn sheets(output: &Output, curve: &PlaneCurve, s: &Rational, sample: &Sample) ->
         (1, Variable::Rotation) => found.push((None, PI)),
         _ => return Err(Code::BranchesNotMatched),
     }
-    if found.len() != sample.modes.len() {
+    if found.len() != values.len() {
         return Err(Code::BranchesNotMatched);
     }
-    let values: Vec<f64> = sample.modes.iter().map(|q| q[output.joint]).collect();
     let sheet = |(t, value): (Option<Rational>, f64)| {
         let distance = |mode: &usize| apart(output.kind, values[*mode], value);
         let mode = (0..values.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
@@ -99,22 +111,17 @@ fn sorted([a, b]: [&Rational; 2]) -> [&Rational; 2] {
     if a < b { [a, b] } else { [b, a] }
 }
 
-/// The bridge between two samples by one output, or why it is not proved.
-pub(super) fn bridge(
-    output: &Output,
-    curve: &InputCurve,
-    piece: &Piece,
-    [low, high]: [&Sample; 2],
-) -> Result<Bridge, Code> {
+/// The bridge between two ends by one output, or why it is not proved.
+pub(super) fn bridge(output: &Output, piece: &Piece, modes: &impl Ends) -> Result<Bridge, Code> {
     let chart = &output.charts[piece.chart];
     let [a, b] = &piece.ends;
     let interval = sorted([a, b]);
     let inside = output.between(piece.chart, interval).ok_or(Code::SingularNotDecided)?;
-    let from = sheets(output, &chart.curve, a, low)?;
-    let to = sheets(output, &chart.curve, b, high)?;
+    let from = sheets(output, &chart.curve, a, &modes.outputs(0, output.joint))?;
+    let to = sheets(output, &chart.curve, b, &modes.outputs(1, output.joint))?;
     match inside.as_slice() {
         [] => in_order(output, chart, interval, [from, to]),
-        [critical] => across(output, chart, curve, [a, b], critical, [low, high], [&from, &to]),
+        [critical] => across(output, chart, [a, b], critical, modes, [&from, &to]),
         _ => Err(Code::SingularNotDecided),
     }
 }
@@ -173,10 +180,9 @@ fn free_angle(chart: &Chart, [low, high]: [&Rational; 2], from: &[Sheet], to: &[
 fn across(
     output: &Output,
     chart: &Chart,
-    curve: &InputCurve,
     places: [&Rational; 2],
     critical: &Critical,
-    samples: [&Sample; 2],
+    modes: &impl Ends,
     [from, to]: [&[Sheet]; 2],
 ) -> Result<Bridge, Code> {
     let interval = sorted(places);
@@ -194,7 +200,8 @@ fn across(
     let are_excluded = passages.iter().all(|passage| passage.excludes_infinity(chart));
     let passing = passages.len() * usize::from(are_excluded);
     let mut bridge = blank(from.len(), to.len());
-    let input = f64::midpoint(samples[0].input, samples[1].input);
+    let [low, high] = modes.inputs();
+    let input = f64::midpoint(low, high);
     for (index, passage) in passages.iter().enumerate() {
         let [x, y] = passage.sheets.map(|sheet| sheet.mode);
         let is_infinite = goes_to_infinity(output, chart, interval, &passages, index, is_simple)?;
@@ -204,11 +211,11 @@ fn across(
     match (ends.as_slice(), begins.as_slice(), critical.event) {
         ([], [], _) => Ok(bridge),
         ([one, two], [], Event::Meeting(1)) => {
-            let fates = meeting(chart, curve, interval, samples, [one, two], passing, input)?;
+            let fates = meeting(chart, interval, (modes, 0), [one, two], passing)?;
             Ok(bridge.settle(true, [one.mode, two.mode], &fates))
         }
         ([], [one, two], Event::Meeting(1)) => {
-            let fates = meeting(chart, curve, interval, [samples[1], samples[0]], [one, two], passing, input)?;
+            let fates = meeting(chart, interval, (modes, 1), [one, two], passing)?;
             Ok(bridge.settle(false, [one.mode, two.mode], &fates))
         }
         // All other roots are real and simple: they have no part in the discriminant.
@@ -227,8 +234,8 @@ fn across(
 
 /// The fate of two modes that meet.
 enum Meeting {
-    /// They are one limit position.
-    Limit(Fold),
+    /// They are one limit position, whose place may be known.
+    Limit(Option<Fold>),
     /// Their translations go to infinity near this input.
     Infinite(f64),
 }
@@ -237,7 +244,11 @@ impl Bridge {
     /// Sets the fates of two modes of one side.
     fn settle(mut self, is_low: bool, [one, two]: [usize; 2], meeting: &Meeting) -> Self {
         let (fates, folds) = match meeting {
-            Meeting::Limit(fold) => ([Fate::Back(two, vec![0]), Fate::Back(one, vec![0])], vec![*fold]),
+            Meeting::Limit(fold) => {
+                let folds = Vec::from_iter(*fold);
+                let back = |mode| Fate::Back(mode, (0..folds.len()).collect());
+                ([back(two), back(one)], folds)
+            }
             Meeting::Infinite(input) => {
                 ([Fate::Infinite(*input, Vec::new()), Fate::Infinite(*input, Vec::new())], Vec::new())
             }
@@ -341,15 +352,13 @@ fn goes_to_infinity(
     if is_single && is_alone && is_simple && is_open { Ok(true) } else { Err(Code::SingularNotDecided) }
 }
 
-/// Returns the fate of two modes of a sample that meet on the way to another sample.
+/// Returns the fate of two modes of an end that meet on the way to the other end.
 fn meeting(
     chart: &Chart,
-    curve: &InputCurve,
     interval: [&Rational; 2],
-    [own, other]: [&Sample; 2],
+    (modes, end): (&impl Ends, usize),
     [one, two]: [&Sheet; 2],
     passing: usize,
-    input: f64,
 ) -> Result<Meeting, Code> {
     if sign_changes(&chart.pole, interval) > 0 {
         return Err(Code::SingularNotDecided);
@@ -366,16 +375,12 @@ fn meeting(
             // All other roots are real and pass elsewhere: the root in common can only be the double one.
             let is_dependent = passing + 2 == chart.curve.degree() && has_root(&chart.common, interval);
             let is_open = is_some_nonzero(&chart.gap, &rectangle, is_inverted);
-            return if is_dependent && is_open { Ok(Meeting::Infinite(input)) } else { Err(Code::SingularNotDecided) };
+            let [low, high] = modes.inputs();
+            let infinite = Meeting::Infinite(f64::midpoint(low, high));
+            return if is_dependent && is_open { Ok(infinite) } else { Err(Code::SingularNotDecided) };
         }
     }
-    let track = follow(curve, &own.points[one.mode], other.input / curve.unit(INPUT));
-    match (track.destination, track.folds.as_slice()) {
-        (Destination::Returned(point), [fold]) if mode_at(curve, own, &point) == Some(two.mode) => {
-            Ok(Meeting::Limit(*fold))
-        }
-        _ => Err(Code::BranchesNotMatched),
-    }
+    modes.limit(end, [one.mode, two.mode]).map(Meeting::Limit)
 }
 
 /// Whether no branch leaves a rectangle through its upper or its lower side.

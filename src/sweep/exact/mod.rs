@@ -16,12 +16,14 @@ mod plane_curve;
 mod relation;
 mod wrist;
 
+pub(super) use crossing::Ends;
 pub(super) use moved::Moved;
 pub(super) use output::{Critical, Event, Output};
 pub(super) use plane_curve::{PlaneCurve, sign_changes};
 
-use super::bridge::Bridge;
+use super::bridge::{Bridge, mode_at};
 use super::sample::Sample;
+use super::track::{Destination, Fold, follow};
 use crate::assembly::wrapped;
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
@@ -29,6 +31,7 @@ use crate::catalogue::entry::{Case, Entry};
 use crate::derivation::Place;
 use crate::kinematics::closed_loop::{Layout, Variable};
 use crate::mechanism::{InputCurve, locked_variable};
+use crate::solve::curve::INPUT;
 use crate::verdict::Code;
 use crossing::Piece;
 use plane_curve::{Integral, S, T};
@@ -49,7 +52,8 @@ const WIDEST: f64 = 2.5;
 
 /// The closure polynomials of a loop.
 pub(super) struct Exact {
-    input: Variable,
+    /// Whether the input is an angle or a distance.
+    pub input: Variable,
     /// The angle from which angles of the input are counted.
     offset: f64,
     /// The half tangent of that angle.
@@ -173,12 +177,23 @@ impl Exact {
     /// second sample may be that of `to` a turn on.
     pub fn bridge(&self, curve: &InputCurve, low: &Sample, high: &Sample, to: f64) -> Result<Bridge, Code> {
         let piece = self.piece(low.input, to).ok_or(Code::BranchesNotMatched)?;
+        self.by_some_output(|output| {
+            let bridge = |samples: [&Sample; 2]| crossing::bridge(output, &piece, &LoopEnds { curve, samples });
+            self.wrist.map_or_else(|| bridge([low, high]), |wrist| wrist.bridge([low, high], bridge))
+        })
+    }
+
+    /// As `bridge`, for modes of another kind.
+    pub fn bridge_between(&self, modes: &impl Ends, to: f64) -> Result<Bridge, Code> {
+        let piece = self.piece(modes.inputs()[0], to).ok_or(Code::BranchesNotMatched)?;
+        self.by_some_output(|output| crossing::bridge(output, &piece, modes))
+    }
+
+    fn by_some_output(&self, bridge: impl Fn(&Output) -> Result<Bridge, Code>) -> Result<Bridge, Code> {
         let mut reason = Code::NoExactRoute;
         for index in 0..self.outputs.len() {
             let Some(output) = self.output(index) else { continue };
-            let bridge = |samples: [&Sample; 2]| crossing::bridge(output, curve, &piece, samples);
-            let found = self.wrist.map_or_else(|| bridge([low, high]), |wrist| wrist.bridge([low, high], bridge));
-            match found {
+            match bridge(output) {
                 Ok(bridge) => return Ok(bridge),
                 Err(code) if index == 0 => reason = code,
                 Err(_) => {}
@@ -206,5 +221,30 @@ impl Exact {
         }
         let is_turned = is_one_way(angles.map(|x| wrapped(x - PI))) && half_tangents.iter().all(|s| !s.is_zero());
         is_turned.then(|| Piece { chart: 1, ends: half_tangents.map(|s| -s.recip()) })
+    }
+}
+
+/// The samples of a loop, with the curve on which its modes are followed.
+struct LoopEnds<'a> {
+    curve: &'a InputCurve,
+    samples: [&'a Sample; 2],
+}
+
+impl Ends for LoopEnds<'_> {
+    fn inputs(&self) -> [f64; 2] {
+        self.samples.map(|sample| sample.input)
+    }
+
+    fn outputs(&self, end: usize, output: usize) -> Vec<f64> {
+        self.samples[end].modes.iter().map(|q| q[output]).collect()
+    }
+
+    fn limit(&self, end: usize, [one, two]: [usize; 2]) -> Result<Option<Fold>, Code> {
+        let (own, other) = (self.samples[end], self.samples[1 - end]);
+        let track = follow(self.curve, &own.points[one], other.input / self.curve.unit(INPUT));
+        match (track.destination, track.folds.as_slice()) {
+            (Destination::Returned(point), [fold]) if mode_at(self.curve, own, &point) == Some(two) => Ok(Some(*fold)),
+            _ => Err(Code::BranchesNotMatched),
+        }
     }
 }
