@@ -173,16 +173,17 @@ mod tests {
     use std::f64::consts::PI;
 
     type Limits = Vec<(f64, bool)>;
+    type Turned = (Code, Limits, Vec<(f64, usize)>);
 
     /// The limit positions of a turn, and the beginnings of the branches with their circuits.
-    fn turned(run: &Run<'_>, steps: usize) -> (Code, Limits, Vec<(f64, usize)>) {
+    fn turned(run: &Run<'_>, steps: usize) -> Turned {
         let range = Range { from: -PI, to: PI, steps };
         let sweep = follow(run, run.joint, range, true, || ()).unwrap();
         let limits = sweep.limits.iter().map(|limit| (limit.input, limit.is_largest)).collect();
         (sweep.verdict.code, limits, sweep.branches.iter().map(|branch| (branch.from, branch.circuit)).collect())
     }
 
-    fn is_same(name: &str, [one, two]: [&(Code, Limits, Vec<(f64, usize)>); 2]) {
+    fn is_same(name: &str, [one, two]: [&Turned; 2]) {
         assert_eq!((one.1.len(), one.2.len()), (two.1.len(), two.2.len()), "{name}");
         for (own, other) in one.1.iter().zip(&two.1) {
             assert!((own.0 - other.0).abs() < 1e-6 && own.1 == other.1, "{name}: {own:?} {other:?}");

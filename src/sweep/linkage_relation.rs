@@ -2,13 +2,10 @@
 
 use super::assemblies::{AssemblySample, Link};
 use super::bridge::{Bridge, Fate};
-use super::exact::{Ends, Exact, PlaneCurve};
+use super::exact::{Ends, Exact};
 use super::linking::Linking;
 use super::track::Fold;
 use crate::algebra::drawn;
-use crate::algebra::int::Int;
-use crate::algebra::polynomial::Polynomial;
-use crate::algebra::ring::Ring;
 use crate::derivation::{
     GroupPolynomial, InputOutput, LinkageDerivation, Watch, derive_linkage, derive_linkage_with_symbols, relation_by_values,
 };
@@ -39,8 +36,6 @@ pub(super) struct LinkageRelation {
     pub is_probable: bool,
     /// Whether every simple root is proved to have one assembly.
     pub proof: Proof,
-    /// A factor of the determinant in the value that moves it, half tangents counted from 0.
-    content: Polynomial<Int>,
 }
 
 /// Returns the polynomial on which all assemblies depend.
@@ -89,7 +84,7 @@ impl LinkageRelation {
         let is_matched = agrees && is_matched(&derivation, best, full);
         let proof = if is_matched { Proof::Probable { error: ERROR, seed: drawn::seed() } } else { Proof::None };
         let bodies = [best.body, best.against];
-        Ok(Self { exact, bodies, unknown: unknown(linkage, best), is_probable: true, proof, content: Polynomial::one() })
+        Ok(Self { exact, bodies, unknown: unknown(linkage, best), is_probable: true, proof })
     }
 
     /// The relation of the first given joint and the body of a polynomial; `None` where it vanishes for all values of an unknown.
@@ -99,26 +94,13 @@ impl LinkageRelation {
         own: &GroupPolynomial,
         relation: &InputOutput,
     ) -> Option<Self> {
-        let InputOutput { polynomial, content, agrees, is_turn, .. } = relation;
+        let InputOutput { polynomial, agrees, is_turn, .. } = relation;
         let full = polynomial.degree(1) as usize;
         let kind = if *is_turn { Variable::Rotation } else { Variable::Translation };
         let exact = Exact::of_polynomial(polynomial, kind, Variable::Rotation, full)?;
         let proof = if *agrees && is_matched(derivation, own, full) { Proof::Proved } else { Proof::None };
         let bodies = [own.body, own.against];
-        Some(Self { exact, bodies, unknown: unknown(linkage, own), is_probable: false, proof, content: content.clone() })
-    }
-
-    /// Whether branches are proved by it: every simple root has one assembly, and the determinant has no further zero where real or
-    /// complex roots meet. A factor that vanishes at half a turn of the input is not seen, so that no roots may meet there.
-    fn proves_branches(&self) -> bool {
-        let Some(output) = self.exact.output(0).filter(|_| self.proof == Proof::Proved) else { return false };
-        let from = &self.exact.from;
-        let content = PlaneCurve::of(&self.content).counted_from(from).coefficient(0);
-        let half_turn = (!from.is_zero()).then(|| -from.clone().recip());
-        output.factors.iter().filter(|(factor, _)| factor.degree() > Some(0)).all(|(factor, _)| {
-            let is_apart = factor.gcd(&content).degree() == Some(0);
-            is_apart && half_turn.as_ref().is_none_or(|s| factor.sign_at(s).is_ne())
-        })
+        Some(Self { exact, bodies, unknown: unknown(linkage, own), is_probable: false, proof })
     }
 }
 
@@ -163,7 +145,7 @@ impl BodyRelations {
             let first = LinkageRelation::of_relation(linkage, &derivation, best, derivation.input_output.as_ref()?)?;
             let is_beside = |k: &usize| derivation.polynomials[*k].group == best.group;
             let others = (1..derivation.polynomials.len()).filter(is_beside).map(|k| (k, OnceLock::new())).collect();
-            first.proves_branches().then(|| Self { linkage: linkage.clone(), given, derivation, first, others })
+            (first.proof == Proof::Proved).then(|| Self { linkage: linkage.clone(), given, derivation, first, others })
         })
     }
 
@@ -171,7 +153,7 @@ impl BodyRelations {
         let derive = |number: usize| {
             let relation = self.derivation.relation_to(&self.linkage, &self.given, number)?;
             let own = self.derivation.polynomials.get(number)?;
-            LinkageRelation::of_relation(&self.linkage, &self.derivation, own, &relation).filter(LinkageRelation::proves_branches)
+            LinkageRelation::of_relation(&self.linkage, &self.derivation, own, &relation).filter(|relation| relation.proof == Proof::Proved)
         };
         self.others.iter().filter_map(move |(number, known)| known.get_or_init(|| derive(*number)).as_ref())
     }
@@ -193,7 +175,7 @@ impl Ends for Assemblies<'_> {
         self.samples[end].modes.iter().map(|mode| mode.bodies[body].0.re - mode.bodies[against].0.re).collect()
     }
 
-    /// Over a simple turning point of the closure polynomial there is one assembly at most, which both modes approach.
+    /// At a simple turning point both modes approach one assembly, since rotations are functions on a smooth curve.
     fn limit(&self, _: usize, _: [usize; 2]) -> std::result::Result<Option<Fold>, Code> {
         Ok(None)
     }

@@ -81,9 +81,6 @@ pub struct InputOutput {
     pub joints: usize,
     /// The polynomial in both.
     pub polynomial: Polynomial<Int>,
-    /// A factor of the determinant in the first variable alone, which the polynomial is without: at its zeros the matrix is singular for
-    /// all angles of the body.
-    pub content: Polynomial<Int>,
     /// Whether it equals the closure polynomial at the value of the input.
     pub agrees: bool,
 }
@@ -103,8 +100,8 @@ pub struct LinkageDerivation {
     pub equations: Vec<Polynomial<Rational>>,
     /// The meaning of the variables of the equations.
     pub variables: Vec<Symbol>,
-    /// Whether no displacement that is unknown can become infinite: each is the only one in some cycle, so that no link of the cycle
-    /// lets it exceed the sum of their lengths.
+    /// Whether no displacement that is unknown can become infinite: the best polynomial depends on all groups, and each displacement is the
+    /// only one in some cycle, so that no link of the cycle lets it exceed the sum of their lengths.
     pub is_bounded: bool,
     /// The reasons why some polynomials are missing.
     pub warnings: Vec<String>,
@@ -300,10 +297,11 @@ pub fn derive_linkage(linkage: &Linkage, given: &[Given]) -> Result<LinkageDeriv
     let groups = found.groups.iter().map(|group| (group.bodies.clone(), group.count)).collect();
     let part = polynomials.first().and_then(|best| {
         let needed = foundations(linkage, &found.groups, best.group, linkage.ground, &merged);
-        Part::new(linkage, given, joints_of(&found, &needed)).map(|part| (best, part))
+        let is_whole = needed.len() == found.groups.len();
+        Part::new(linkage, given, joints_of(&found, &needed)).map(|part| (best, part, is_whole))
     });
-    let is_bounded = part.as_ref().is_some_and(|(_, part)| part.is_bounded());
-    let equations = part.and_then(|(best, part)| part.equations(best.against));
+    let is_bounded = part.as_ref().is_some_and(|(_, part, is_whole)| *is_whole && part.is_bounded());
+    let equations = part.and_then(|(best, part, _)| part.equations(best.against));
     let (variables, equations) = equations.unwrap_or_default();
     Ok(LinkageDerivation { polynomials, input_output, relations, groups, equations, variables, is_bounded, warnings })
 }
@@ -424,11 +422,6 @@ impl Relation {
 
     /// Returns the polynomial in input, a half-angle tangent or a part of the direction of the joint, and output.
     pub fn polynomial(&self, linkage: &Linkage) -> Option<Polynomial<Int>> {
-        self.factors(linkage).map(|[polynomial, _]| polynomial)
-    }
-
-    /// Returns that polynomial and the factor of the determinant in the input alone.
-    fn factors(&self, linkage: &Linkage) -> Option<[Polynomial<Int>; 2]> {
         let part = Part::new(linkage, &self.held, self.joints.clone())?;
         let of = linkage.joints[self.input].of;
         let mut exact = part.exact.clone();
@@ -459,10 +452,10 @@ impl Relation {
         }
         // Factors of the input alone are inputs at which the matrix is singular for all outputs.
         let content = polynomial.content_in(1);
-        match polynomial.checked_div_exact(&content).filter(|_| content.to_constant().is_none()) {
-            Some(rest) => Some([rest, content]),
-            None => Some([polynomial, Polynomial::one()]),
+        if let Some(rest) = polynomial.checked_div_exact(&content).filter(|_| content.to_constant().is_none()) {
+            polynomial = rest;
         }
+        Some(polynomial)
     }
 
     /// Returns the same polynomial with the input in metres, if it is a displacement.
@@ -476,13 +469,13 @@ impl Relation {
 
 /// Returns the polynomial of the first given joint and the body of the best polynomial.
 fn relate(linkage: &Linkage, one: &Given, relation: &Relation, best: &GroupPolynomial) -> Option<InputOutput> {
-    let [polynomial, content] = relation.factors(linkage)?;
+    let polynomial = relation.polynomial(linkage)?;
     let at_input = InputNumber::of(one).and_then(|number| number.put(&polynomial)?.to_univariate(1));
     let agrees = at_input.is_some_and(|own| is_multiple(&own, &best.coefficients));
-    let [polynomial, content] = [relation.in_metres(polynomial, linkage)?, relation.in_metres(content, linkage)?];
+    let polynomial = relation.in_metres(polynomial, linkage)?;
     let Relation { input, is_turn, body, against, .. } = *relation;
     let joints = relation.joints.len();
-    Some(InputOutput { input, is_turn, body, against, held: relation.held_joints(), joints, polynomial, content, agrees })
+    Some(InputOutput { input, is_turn, body, against, held: relation.held_joints(), joints, polynomial, agrees })
 }
 
 /// The value of an input as a relation has it.

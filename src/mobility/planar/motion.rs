@@ -10,8 +10,11 @@ use crate::linkage::answer::{LinkageAnswer, LinkageFamily, solve_asked};
 use crate::linkage::assembly::Asked;
 use crate::linkage::state::{State, number, turned};
 use crate::verdict::{Code, Proof, Status, Verdict};
-use rug::Rational;
 use std::sync::atomic::Ordering;
+
+/// Order up to which motions are followed to see which joints move: at a dead point one begins in order 2, where several meet in one a
+/// little later.
+const LAST: usize = 8;
 
 /// Finds all assemblies of a case. Where their list is not proved and nothing is given, the mobility at the configuration of the file
 /// shows whether they are infinitely many.
@@ -63,12 +66,20 @@ fn motion(file: &LinkageFile, configuration: &LinkageConfiguration) -> Option<Mo
     let state = placed(linkage, configuration)?;
     let mobility = at(linkage, configuration, file.exact && configuration.exact).ok()?;
     let dimension = mobility.mobility.filter(|dimension| *dimension > 0 && mobility.proof == Proof::Proved)?;
+    // Where branches cross, not every first-order motion belongs to one.
+    if mobility.first_order != Some(dimension) {
+        return None;
+    }
     let system = System::at(linkage, configuration).ok()?;
-    let motions = system.motions();
+    let motions = system.motions(LAST);
     let moves = |joint: &usize| {
-        let rate = |body: usize, motion: &[Rational]| system.variable_of(body).map(|variable| motion[variable].clone()).unwrap_or_default();
-        let [first, second] = linkage.joints[*joint].of;
-        motions.iter().any(|motion| rate(first, motion) != rate(second, motion))
+        let at_rest = Vec::new();
+        let [first, second] = linkage.joints[*joint].of.map(|body| system.variable_of(body));
+        motions.iter().any(|series| {
+            let own = |variable: Option<usize>| variable.map_or(&at_rest, |variable| &series[variable]);
+            let [one, two] = [own(first), own(second)];
+            (0..=LAST).any(|order| one.get(order).cloned().unwrap_or_default() != two.get(order).cloned().unwrap_or_default())
+        })
     };
     let joints = (0..linkage.joints.len()).filter(moves).collect();
     Some(Motion { family: LinkageFamily::at(linkage, &state, dimension, joints), mobility })

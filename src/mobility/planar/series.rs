@@ -118,6 +118,11 @@ impl<'a> Solver<'a> {
 
     /// Follows a first-order motion: the order in which a reduced equation fails, with its value there, up to the last order.
     fn follow(&self, motion: &[Rational], last: usize) -> Option<(usize, Vec<Rational>)> {
+        self.series(motion, last).err()
+    }
+
+    /// Returns the coefficients of all variables along a first-order motion from order 0 to the last one, or where it fails.
+    fn series(&self, motion: &[Rational], last: usize) -> Result<Vec<Vec<Rational>>, (usize, Vec<Rational>)> {
         let (system, turns) = (self.system, self.system.turns);
         // Of every variable its coefficients from order 1, and of every rotation those from order 0.
         let mut values: Vec<Vec<Rational>> = motion.iter().map(|v| vec![Rational::new(), v.clone()]).collect();
@@ -153,7 +158,7 @@ impl<'a> Solver<'a> {
             let combined = self.combined(&rest);
             let rank = self.pivots.len();
             if combined[rank..].iter().any(|c| *c != 0) {
-                return Some((order, combined[rank..].to_vec()));
+                return Err((order, combined[rank..].to_vec()));
             }
             for series in &mut values {
                 series.push(Rational::new());
@@ -166,7 +171,7 @@ impl<'a> Solver<'a> {
                 rotations[j].push(known.add(&own));
             }
         }
-        None
+        Ok(values)
     }
 
     /// Returns the second-order parts of the reduced equations on all first-order motions, as symmetric matrices.
@@ -256,9 +261,10 @@ impl System {
         doubled(1_usize.checked_shl(u32::try_from(twos).unwrap_or(u32::MAX)).filter(|_| twos < 60).unwrap_or(usize::MAX))
     }
 
-    /// Returns a basis of the first-order motions, as rates of all variables.
-    pub(super) fn motions(&self) -> Vec<Vec<Rational>> {
-        Solver::new(self).motions
+    /// Returns motions as series of all variables up to an order, one for every first-order motion of a basis.
+    pub(super) fn motions(&self, last: usize) -> Vec<Vec<Vec<Rational>>> {
+        let solver = Solver::new(self);
+        solver.motions.iter().filter_map(|motion| solver.series(motion, last).ok()).collect()
     }
 
     /// Decides what the assemblies near this one are.

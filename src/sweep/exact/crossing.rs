@@ -16,6 +16,8 @@ use std::f64::consts::{PI, TAU};
 /// A mode and a root of the closure polynomial agree if they are no farther apart, in radians or lengths over 1 plus
 /// their size: samples are solved to more digits than that, also 1e-5 beside a limit position.
 const SAME: f64 = 1e-6;
+/// Any other mode is this many times as far from the root.
+const CLEAR: f64 = 4.0;
 /// The number of widest gaps between outputs that are tried for one that no output passes.
 const GAPS: usize = 4;
 /// Rectangles about a branch are tried with these multiples of what it rises.
@@ -98,6 +100,10 @@ fn sheets(output: &Output, curve: &PlaneCurve, s: &Rational, values: &[f64]) -> 
     let sheet = |(t, value): (Option<Rational>, f64)| {
         let distance = |mode: &usize| apart(output.kind, values[*mode], value);
         let mode = (0..values.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        let second = (0..values.len()).filter(|other| *other != mode).map(|other| distance(&other)).fold(f64::INFINITY, f64::min);
+        if !(second > CLEAR * distance(&mode)) {
+            return None;
+        }
         let size = if output.kind == Variable::Rotation { 1.0 } else { 1.0 + value.abs() };
         (distance(&mode) <= SAME * size).then_some(Sheet { t, value, mode })
     };
