@@ -84,6 +84,60 @@ impl Lifted {
         self.product *= modulus.prime();
         changed
     }
+
+    /// Joins a divisor of the same length that is known modulo other primes. Returns whether that changed anything.
+    fn merge(&mut self, other: &Self) -> bool {
+        // The primes of both are different, so that the inverse exists.
+        let Ok(inverse) = self.product.clone().invert(&other.product) else { return true };
+        let half = Integer::from(&other.product / 2);
+        let mut changed = false;
+        for (c, r) in self.coefficients.iter_mut().zip(&other.coefficients) {
+            let mut digit = Integer::from(r - &*c) % &other.product;
+            digit *= &inverse;
+            digit %= &other.product;
+            // The symmetric digit keeps the sum symmetric.
+            if digit > half {
+                digit -= &other.product;
+            } else if digit < Integer::from(-&half) {
+                digit += &other.product;
+            }
+            changed |= digit != 0;
+            *c += digit * &self.product;
+        }
+        self.product *= &other.product;
+        changed
+    }
+}
+
+/// Primes are joined with each other first, until their product has this part of the bits of what is known. Prime by prime the work is half the
+/// square of the length; that inside of groups is a 32nd of it, and that between them is less than a square. Measured with 60 coefficients of
+/// 130,000 bits: 0.2 s where it was 0.6 s, with 8 as with 16.
+const SHARE: u32 = 16;
+
+/// A common divisor to which images are joined in groups.
+struct Grouped {
+    known: Lifted,
+    recent: Lifted,
+}
+
+impl Grouped {
+    fn new(count: usize) -> Self {
+        Self { known: Lifted::new(count), recent: Lifted::new(count) }
+    }
+
+    /// Adds an image, of the same length. Returns whether something was known, and a whole group of images did not change it.
+    fn is_settled_by(&mut self, image: &[u64], modulus: &Modulus) -> bool {
+        self.recent.join(image, modulus);
+        if self.recent.bits() < self.known.bits() / SHARE {
+            return false;
+        }
+        let recent = std::mem::replace(&mut self.recent, Lifted::new(image.len()));
+        if self.known.product == 1 {
+            self.known = recent;
+            return false;
+        }
+        !self.known.merge(&recent)
+    }
 }
 
 impl Univariate<Integer> {
@@ -157,7 +211,7 @@ impl Univariate<Integer> {
             return rest.mul(&Self::constant(content));
         };
         let leading = Integer::from(f_leading.gcd_ref(g_leading));
-        let mut lifted: Option<Lifted> = None;
+        let mut lifted: Option<Grouped> = None;
         for ([f_image, g_image], modulus) in images([f.coefficients(), g.coefficients()]) {
             let scale = modulus.reduce(&leading);
             let (a, b) = (residues(&f_image, &modulus), residues(&g_image, &modulus));
@@ -173,22 +227,19 @@ impl Univariate<Integer> {
             for r in &mut image {
                 *r = modulus.mul(*r, factor);
             }
-            match &mut lifted {
-                // An image of higher degree is of an unlucky prime; one of lower degree shows that all before were.
-                Some(known) if known.coefficients.len() < image.len() => continue,
-                Some(known) if known.coefficients.len() == image.len() => {
-                    if known.join(&image, &modulus) {
-                        continue;
-                    }
-                }
-                _ => {
-                    let mut first = Lifted::new(image.len());
-                    first.join(&image, &modulus);
-                    lifted = Some(first);
-                    continue;
-                }
+            let length = lifted.as_ref().map(|grouped| grouped.known.coefficients.len());
+            // An image of higher degree is of an unlucky prime; one of lower degree shows that all before were.
+            if length.is_some_and(|length| length < image.len()) {
+                continue;
             }
-            let Some(known) = &lifted else { continue };
+            if length != Some(image.len()) {
+                lifted = None;
+            }
+            let grouped = lifted.get_or_insert_with(|| Grouped::new(image.len()));
+            if !grouped.is_settled_by(&image, &modulus) {
+                continue;
+            }
+            let known = &grouped.known;
             let candidate = Self::new(known.coefficients.clone()).primitive_part();
             if f.quotient(&candidate).is_some() && g.quotient(&candidate).is_some() {
                 return candidate.mul(&Self::constant(content));
@@ -291,5 +342,31 @@ impl Univariate<Integer> {
             multiplicity += 1;
         }
         factors
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A polynomial with coefficients of about so many bits, by powers of a number that follow no pattern.
+    fn long(degree: usize, bits: u32, start: u32) -> Univariate<Integer> {
+        let power = |k: usize| Integer::from(Integer::u_pow_u(start + u32::try_from(k).unwrap_or(0), bits / 4)) + k;
+        Univariate::new((0..=degree).map(power).collect())
+    }
+
+    #[test]
+    fn long_divisors_are_joined_in_groups() {
+        // Numbers between 16 and 40 have 4 to 6 bits: the divisor has coefficients of up to 9000 bits, about 150 primes.
+        let divisor = long(4, 6000, 17).primitive_part();
+        let (f, g) = (long(3, 200, 23), long(5, 300, 19));
+        assert_eq!(f.gcd(&g), Univariate::one());
+        let found = divisor.mul(&f).gcd(&divisor.mul(&g));
+        assert_eq!(found, divisor);
+        // A short one is known modulo a few primes, one after the other.
+        assert_eq!(
+            long(2, 40, 17).primitive_part().mul(&f).gcd(&long(2, 40, 17).mul(&g)),
+            long(2, 40, 17).primitive_part()
+        );
     }
 }
