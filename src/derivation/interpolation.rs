@@ -97,6 +97,11 @@ impl Values {
         }
     }
 
+    /// Returns a value of one symbol alone.
+    pub fn first(self, number: usize) -> Rational {
+        self.at(0, 1, number)
+    }
+
     /// Returns values at which all derivations begin; they are among those used later, so that nothing is derived twice.
     pub fn start(self, symbols: usize) -> Vec<Rational> {
         (0..symbols).map(|symbol| self.at(symbol, symbols, 0)).collect()

@@ -68,10 +68,9 @@ pub(super) fn joint_variables(file: &SpaceFile) -> Value {
     variables.collect()
 }
 
-/// One document for all cases.
-#[must_use]
-pub fn json(file: &SpaceFile, results: &[Value]) -> Value {
-    let mut document = json!({
+/// The keys that every document of a linkage has.
+fn shared(file: &SpaceFile) -> Value {
+    json!({
         "title": file.heading.title,
         "kind": "linkage",
         "name": file.heading.name,
@@ -79,8 +78,25 @@ pub fn json(file: &SpaceFile, results: &[Value]) -> Value {
         "units": units(),
         "joint_variables": joint_variables(file),
         "mechanism": model::space_json(file),
-        "results": results,
-    });
+    })
+}
+
+/// Returns a document about a case with the keys that every document of a linkage has; `case` is counted from 1.
+#[must_use]
+pub fn completed(file: &SpaceFile, case: usize, own: Value) -> Value {
+    let mut document = shared(file);
+    document["case"] = json!(case);
+    if let (Value::Object(document), Value::Object(own)) = (&mut document, own) {
+        document.extend(own);
+    }
+    document
+}
+
+/// One document for all cases.
+#[must_use]
+pub fn json(file: &SpaceFile, results: &[Value]) -> Value {
+    let mut document = shared(file);
+    document["results"] = json!(results);
     if let Some(seed) = drawn::seed_used() {
         document["seed"] = json!(seed);
     }

@@ -25,7 +25,8 @@ mod verdict;
 
 pub use branch::{Branch, End, Limit, Row};
 pub use cells::{
-    Cell, CellMap, Cells, CellsVerdict, Column, EntryCase, Label, LinkageCase, MapWanted, Parameter, Subject, Zero, cell_map, cells,
+    Cell, CellMap, Cells, CellsVerdict, Column, EntryCase, Label, LinkageCase, MapWanted, Parameter, SpaceCase, SphereCase, Subject,
+    Zero, cell_map, cells,
 };
 pub use derivation::derive_any;
 pub use assemblies::{AssemblyBranch, AssemblyLimit, AssemblyRow, AssemblySample, AssemblySweep};

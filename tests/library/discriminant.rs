@@ -6,7 +6,7 @@ use looproot::internal::catalogue::{Any, LinkageFile, Options, load, load_any};
 use looproot::internal::derivation::derive;
 use looproot::internal::kinematics::closed_loop::Variable;
 use looproot::internal::sweep::{
-    Cells, EntryCase, Label, LinkageCase, MapWanted, Range, Subject, cell_map, cells, sweep,
+    Cells, EntryCase, Label, LinkageCase, MapWanted, Range, SpaceCase, SphereCase, Subject, cell_map, cells, sweep,
 };
 use looproot::internal::verdict::{Code, Proof};
 use rug::Rational;
@@ -125,7 +125,7 @@ fn case(file: &LinkageFile) -> LinkageCase {
 }
 
 /// The modes at simple numbers everywhere on the axis of a parameter are those of their cells.
-fn agrees(subject: &LinkageCase, own: &Cells) {
+fn agrees(subject: &impl Subject, own: &Cells) {
     let parameter = subject.parameter(&own.parameter).unwrap();
     let mut compared = 0;
     for numerator in -14..=14 {
@@ -187,4 +187,56 @@ fn coordinates_of_points_cut_cells_as_well() {
     // The coupler and the rocker, 3 and 1, reach the joint of the crank where it is 4 away from D; or 2, which it never is.
     assert!((limits[0] + 1.4).abs() < 1e-9 && (limits[1] - 5.0).abs() < 1e-9, "{limits:?}");
     assert!(cells(&subject, "crank.B.q").is_err());
+}
+
+fn on_sphere(name: &str) -> SphereCase {
+    match load_any(name, &Options::default()).unwrap() {
+        Any::Sphere(file) => SphereCase::new(&file.linkage, &file.cases[0].given, [file.exact, file.cases[0].exact]),
+        _ => panic!("{name} is no linkage on the sphere"),
+    }
+}
+
+#[test]
+fn a_four_bar_on_the_sphere_has_proved_cells() {
+    let subject = on_sphere("linkage/spherical_four_bar");
+    let parameter = subject.parameter("A").unwrap();
+    assert_eq!(parameter.value, Some(Rational::from(2)));
+    let own = cells(&subject, "A").unwrap();
+    assert!(own.verdict.proof.is_proved(), "{:?}", own.verdict);
+    assert_eq!(own.polynomial.degree(1), 2);
+    holds(&own);
+    agrees(&subject, &own);
+    assert!(cells(&subject, "B").is_err());
+}
+
+#[test]
+fn six_bars_on_the_sphere_have_cells_that_the_solver_confirms() {
+    let subject = on_sphere("linkage/spherical_watt");
+    let own = cells(&subject, "A").unwrap();
+    assert!(matches!(own.verdict.proof, Proof::Probable { .. }), "{:?}", own.verdict);
+    assert_eq!(own.polynomial.degree(1), 4);
+    holds(&own);
+    agrees(&subject, &own);
+}
+
+#[test]
+fn linkages_in_space_have_cells_that_the_solver_confirms() {
+    let Any::Space(file) = load_any("linkage/rssr_ssr", &Options::default()).unwrap() else {
+        panic!("a linkage in space")
+    };
+    let subject = SpaceCase::new(&file, 0);
+    let given = file.cases[0].given[0].joint.unwrap();
+    let own = cells(&subject, &file.linkage.joints[given].name).unwrap();
+    assert!(matches!(own.verdict.proof, Proof::Probable { .. }), "{:?}", own.verdict);
+    assert_eq!(own.polynomial.degree(1), 4);
+    holds(&own);
+    agrees(&subject, &own);
+}
+
+#[test]
+fn six_bars_whose_values_are_close_have_cells() {
+    let file = linkage("linkage/stephenson_3_triad");
+    let own = cells(&case(&file), "H").unwrap();
+    assert!(own.verdict.proof.is_proved(), "{:?}", own.verdict);
+    holds(&own);
 }

@@ -11,6 +11,7 @@ mod rates;
 mod universal;
 mod values;
 
-pub use answer::{Coordinate, SpaceAnswer, SpaceGroup, SpaceMode, solve};
+pub use answer::{Coordinate, SpaceAnswer, SpaceGroup, SpaceMode, bodies, solve};
+pub use equations::System;
 pub use conditions::conditions;
 pub use rates::{SpaceRates, rates};

@@ -7,9 +7,11 @@
 mod map;
 mod multiple;
 mod source;
+mod spatial;
 mod subject;
 
 pub use map::{CellMap, Column, Wanted as MapWanted, cell_map};
+pub use spatial::{SpaceCase, SphereCase};
 pub use subject::{EntryCase, LinkageCase, Parameter, Subject};
 
 use super::exact::{Critical, Event, Output, PlaneCurve};
@@ -310,7 +312,7 @@ impl Source {
             let under: Rational = 1 - Rational::from(x * from);
             (!under.is_zero()).then(|| Rational::from(x + from) / under)
         };
-        for bits in [64_u32, 256, 1024, 4096] {
+        for (step, bits) in [64_u32, 256, 1024, 4096].into_iter().enumerate() {
             let width = Rational::from((Integer::from(1), Integer::from(1) << bits));
             [&mut low, &mut high].into_iter().flatten().for_each(|root| root.refine(&width));
             let ends = [low.as_ref().map(|root| root.bounds().1), high.as_ref().map(|root| root.bounds().0)];
@@ -319,8 +321,9 @@ impl Source {
                     let quarter = Rational::from(&b - &a) / 4;
                     simplest_between(a + &quarter, b - &quarter)
                 }
-                [Some(a), None] => a.ceil() + 1,
-                [None, Some(b)] => b.floor() - 1,
+                // One of all numbers stands for half a turn, which has no half tangent.
+                [Some(a), None] => a.ceil() + (1 + step),
+                [None, Some(b)] => b.floor() - (1 + step),
                 [None, None] => Rational::from((1, 3)),
                 _ => continue,
             };

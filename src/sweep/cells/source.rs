@@ -1,16 +1,18 @@
 //! The source of the closure polynomial in a parameter and an unknown.
 
+use super::subject::Parameter;
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
 use crate::catalogue::entry::{Case, Entry};
 use crate::algebra::drawn;
-use crate::derivation::{Setting, Watch, derive_interpolated, variable_name};
+use crate::derivation::{Equations, Setting, Watch, derive_interpolated, relation_by_bases, variable_name};
 use crate::error::{Error, Result};
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::linkage::{Given, Linkage};
 use crate::sweep::exact::{Exact, Moved};
 use crate::sweep::linkage_relation::LinkageRelation;
 use crate::verdict::Proof;
+use rug::Rational;
 
 /// Probability of error of a polynomial that is interpolated and compared at 20 places.
 const ERROR: f64 = 1e-12;
@@ -58,6 +60,26 @@ impl Source {
         let seed = drawn::seed();
         let proof = if derivation.proved { Proof::Proved } else { Proof::Probable { error: ERROR, seed } };
         Ok(Self { exact, unknown, is_probable: !derivation.proved, proof })
+    }
+
+    /// A polynomial in the half tangents of a parameter and an output of which every real root belongs to one real mode, and every real
+    /// mode to one of them.
+    pub(super) fn of_transfer(polynomial: &Polynomial<Int>, unknown: String) -> Option<Self> {
+        let exact = Exact::of_polynomial(polynomial, Variable::Rotation, Variable::Rotation, polynomial.degree(1) as usize)?;
+        Some(Self { exact, unknown, is_probable: false, proof: Proof::Proved })
+    }
+
+    /// The characteristic polynomial of a linear form u in the unknowns of the equations at a value of the parameter, interpolated.
+    pub(super) fn by_bases(
+        at: &(dyn Fn(&Rational) -> Option<Equations> + Sync),
+        parameter: &Parameter,
+    ) -> Result<Self> {
+        let polynomial = relation_by_bases(at, &parameter.name, &Watch::none())?;
+        let none = || Error::Unsupported("modes coincide at all values of the parameter".to_owned());
+        let full = polynomial.degree(1) as usize;
+        let exact = Exact::of_polynomial(&polynomial, parameter.kind, Variable::Translation, full).ok_or_else(none)?;
+        let proof = Proof::Probable { error: ERROR, seed: drawn::seed() };
+        Ok(Self { exact, unknown: "u".to_owned(), is_probable: true, proof })
     }
 
     /// The relation of the first given joint of a linkage, or of a coordinate of a point, and the angle of a body.

@@ -107,6 +107,26 @@ impl Solutions {
     }
 }
 
+impl FiniteRing {
+    /// Returns the number of the first linear form in so many variables that has different values at different solutions, as
+    /// [`Self::values_of_form`] counts them; `None` if none was found.
+    #[must_use]
+    pub fn separating_form(&self, variables: usize) -> Option<i32> {
+        let distinct = self.distinct();
+        let is_separating = |number: &i32| {
+            self.values_of_form(variables, *number).is_some_and(|f| f.square_free_part().degree() == Some(distinct))
+        };
+        (0..TRIES).find(is_separating)
+    }
+
+    /// Returns the monic polynomial whose roots are the values of the linear form of a number, small integers times the variables, at
+    /// all solutions, each with its multiplicity.
+    #[must_use]
+    pub fn values_of_form(&self, variables: usize, number: i32) -> Option<Univariate<Rational>> {
+        Some(self.characteristic(&linear_form(variables, number))?.0)
+    }
+}
+
 /// Returns the linear form of this number: small coefficients first.
 fn linear_form(variables: usize, number: i32) -> Equation {
     let (step, start) = (number + 1, number / 2 + 1);

@@ -10,14 +10,14 @@ use super::seed::plant;
 use super::symbols;
 use super::wanted::{in_place, wanted};
 use looproot::internal::catalogue::entry::{Design, Entry};
-use looproot::internal::catalogue::{Any, Chains, Options, load_solvable};
+use looproot::internal::catalogue::{Any, Chains, Options, SpaceFile, load_solvable};
 use looproot::internal::derivation::{Derivation, Way, derive_by, derive_with_symbols, surface};
 use looproot::internal::error::Error;
 use looproot::internal::report::derivation::{json, paper, system, text, verdict};
 use looproot::internal::report::document::complete;
 use looproot::internal::report::json::kind;
-use looproot::internal::report::{surface as surfaces, symbolic, ways};
-use looproot::internal::sweep::{EntryCase, derive_any};
+use looproot::internal::report::{self, surface as surfaces, symbolic, ways};
+use looproot::internal::sweep::{EntryCase, SpaceCase, derive_any};
 use looproot_algebra::number::{Number, Quantity};
 use rug::Rational;
 use serde_json::{Value, json};
@@ -51,10 +51,14 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
             return Err(Error::Invalid(message.to_owned()).into());
         }
         Any::Sphere(file) => return super::sphere::derive(options, mechanism, &file),
-        Any::Space(_) => return Err(in_space()),
+        Any::Space(file) => return in_space(options, mechanism, &file),
         other => return Err(unexpected(mechanism, other.kind(), "an arm, a loop, a platform or a linkage")),
     };
     if let Some(asked) = &options.trace {
+        if options.symbolic.is_some() {
+            let message = "found --symbolic with --trace of an arm, expected it for a point of a linkage in the plane";
+            return Err(Error::Unsupported(message.to_owned()).into());
+        }
         return traced(options, mechanism, &entry, asked);
     }
     let whole = entry.clone();
@@ -134,8 +138,22 @@ fn certify(options: &DeriveOptions, (entry, index): (&Entry, usize), derivation:
     Ok(())
 }
 
-fn in_space() -> Fault {
-    Error::Unsupported("closure polynomials of linkages in space are not derived yet".to_owned()).into()
+/// Prints the cells of a linkage in space.
+fn in_space(options: &DeriveOptions, mechanism: &str, file: &SpaceFile) -> Result<Exit, Fault> {
+    let Some(names) = &options.discriminant else {
+        let message = "closure polynomials of linkages in space are not derived yet, expected --discriminant";
+        return Err(Error::Unsupported(message.to_owned()).into());
+    };
+    let file = &*super::space::posed(options.asked.input.as_deref(), file)?;
+    let index = super::space::wanted(options.asked.input.as_deref(), file)?.start;
+    let asked = Asked {
+        subject: SpaceCase::new(file, index),
+        title: &file.heading.title,
+        reading: &file.reading,
+        place: &|error| error.at(mechanism, file.cases[index].line),
+        document: &|value| format!("{}\n", report::space::completed(file, index + 1, value)),
+    };
+    discriminant::run(options, mechanism, &asked, names)
 }
 
 fn without_certificate() -> Fault {
