@@ -5,11 +5,14 @@ use crate::algebra::polynomial::Polynomial;
 use crate::algebra::text::{Format, Names};
 use crate::catalogue::entry::{Design, Entry};
 use crate::claims::{Finding, Sort};
-use crate::derivation::platform_equations;
+use super::linkage_derivation::tangent;
+use crate::catalogue::{LinkageFile, SphereFile};
+use crate::derivation::{derive_linkage, platform_equations, transfer};
 use crate::error::{Error, Result};
 use crate::sweep::derive_any;
 use rug::Rational;
 use std::fmt::Write;
+use std::time::Instant;
 
 /// Two pages of characters.
 const TWO_PAGES: usize = 8000;
@@ -59,38 +62,96 @@ pub fn atlas(entry: &Entry) -> Result<Option<String>> {
 }
 
 /// The head of the table of all entries, in Markdown.
-pub const HEAD: &str = "| entry | mechanism | degree | unknown | real roots | longest coefficient [digits] | equations |\n\
-                        |---|---|---|---|---|---|---|\n";
+pub const HEAD: &str = "| entry | mechanism | degree | unknown | real roots | longest coefficient [digits] | time [ms] | equations |\n\
+                        |---|---|---|---|---|---|---|---|\n";
+
+/// What a row says of a closure polynomial.
+struct Columns {
+    degree: usize,
+    unknown: String,
+    /// `None` of polynomials in two unknowns.
+    real: Option<usize>,
+    digits: usize,
+}
+
+/// The digits of the longest of these numbers.
+fn digits<T: ToString>(numbers: impl Iterator<Item = T>) -> usize {
+    numbers.map(|c| c.to_string().trim_start_matches('-').len()).max().unwrap_or(0)
+}
+
+/// A row of that table: its columns, or why there are none. `page` is the last one.
+fn row_of(name: &str, title: &str, page: &str, derive: impl FnOnce() -> std::result::Result<Columns, String>) -> String {
+    let start = Instant::now();
+    let found = derive();
+    let time = start.elapsed().as_secs_f64() * 1e3;
+    let columns = match found {
+        Ok(Columns { degree, unknown, real, digits }) => {
+            let real = real.map_or_else(String::new, |real| real.to_string());
+            // Below 10 ms one decimal, so that short times are told apart.
+            let time = if time < 10.0 { format!("{time:.1}") } else { format!("{time:.0}") };
+            format!("{degree} | {unknown} | {real} | {digits} | {time} | {page}")
+        }
+        Err(reason) => {
+            format!("– | | | | | {}", reason.split(['\n', ';']).next().unwrap_or_default().replace('|', "/"))
+        }
+    };
+    format!("| {name} | {} | {columns} |\n", title.replace('|', "/"))
+}
+
+/// Returns the reason of an error that says what is not supported, else all of it.
+fn reason(error: &Error) -> String {
+    error.unsupported().map_or_else(|| error.to_string(), ToOwned::to_owned)
+}
 
 /// A row of that table: what is derived from an entry's first case, or why nothing is. `has_page` says whether a `.eqs` file stands
 /// beside it.
 #[must_use]
 pub fn row(entry: &Entry, name: &str, has_page: bool) -> String {
-    let title = entry.title.replace('|', "/");
     let page = if has_page { format!("[{name}.eqs]({name}.eqs)") } else { "`derive`".to_owned() };
-    let found = entry.cases.first().map(|case| derive_any(entry, case));
-    let polynomial = match &found {
-        Some(Ok(derivation)) => derivation.polynomial.as_ref().map(|polynomial| (derivation, polynomial)),
-        _ => None,
-    };
-    let columns = match (polynomial, &found) {
-        (Some((derivation, polynomial)), _) => {
-            let digits = polynomial.coefficients.coefficients().iter().map(|c| c.to_string().trim_start_matches('-').len());
-            let degree = polynomial.degree() + polynomial.at_pi;
-            let unknown = &derivation.names.list()[polynomial.variable];
-            let real = polynomial.roots.len() + usize::from(polynomial.at_pi > 0);
-            format!("{degree} | {unknown} | {real} | {} | {page}", digits.max().unwrap_or(0))
-        }
-        (None, Some(Ok(derivation))) => {
-            format!("– | | | | {}", derivation.without.as_deref().unwrap_or("no closure polynomial"))
-        }
-        (None, Some(Err(error))) => {
-            let text = error.unsupported().map_or_else(|| error.to_string(), ToOwned::to_owned);
-            format!("– | | | | {}", text.split(['\n', ';']).next().unwrap_or_default().replace('|', "/"))
-        }
-        (None, None) => "– | | | | no case".to_owned(),
-    };
-    format!("| {name} | {title} | {columns} |\n")
+    row_of(name, &entry.title, &page, || {
+        let case = entry.cases.first().ok_or("no case")?;
+        let derivation = derive_any(entry, case).map_err(|error| reason(&error))?;
+        let none = || derivation.without.clone().unwrap_or_else(|| "no closure polynomial".to_owned());
+        let polynomial = derivation.polynomial.as_ref().ok_or_else(none)?;
+        Ok(Columns {
+            degree: polynomial.degree() + polynomial.at_pi,
+            unknown: derivation.names.list()[polynomial.variable].clone(),
+            real: Some(polynomial.roots.len() + usize::from(polynomial.at_pi > 0)),
+            digits: digits(polynomial.coefficients.coefficients().iter()),
+        })
+    })
+}
+
+/// The row of a linkage in the plane: the closure polynomial of least degree.
+#[must_use]
+pub fn linkage_row(file: &LinkageFile, name: &str) -> String {
+    row_of(name, &file.heading.title, "`derive`", || {
+        let case = file.cases.first().ok_or("no case")?;
+        let derivation = derive_linkage(&file.linkage, &case.given).map_err(|error| reason(&error))?;
+        let best = derivation.polynomials.first().ok_or("no closure polynomial")?;
+        Ok(Columns {
+            degree: best.roots(),
+            unknown: tangent(file, best.body),
+            real: Some(best.coefficients.real_roots().len() + usize::from(best.at_pi > 0)),
+            digits: digits(best.coefficients.coefficients().iter()),
+        })
+    })
+}
+
+/// The row of a linkage on the sphere: the transfer function, a polynomial in the tangents of two half angles.
+#[must_use]
+pub fn sphere_row(file: &SphereFile, name: &str) -> String {
+    row_of(name, &file.heading.title, "`derive`", || {
+        let given = file.cases.first().and_then(|case| case.given.iter().find_map(|one| one.joint));
+        let found = transfer(&file.linkage, given.ok_or("no given joint")?).map_err(|error| reason(&error))?;
+        let joint = |joint: usize| &file.linkage.joints[joint].name;
+        Ok(Columns {
+            degree: found.polynomial.degree(1) as usize,
+            unknown: format!("t_{}, with t_{} of degree {}", joint(found.output), joint(found.input), found.polynomial.degree(0)),
+            real: None,
+            digits: digits(found.polynomial.terms().map(|(_, c)| c.to_integer())),
+        })
+    })
 }
 
 /// Judges the text of a `.eqs` file by what is derived from its entry.

@@ -5,7 +5,7 @@ use super::exit::{Exit, Fault, complain};
 use super::output::print;
 use looproot::internal::catalogue::{Any, Options, load, load_solvable};
 use looproot::internal::error::{Error, Result};
-use looproot::internal::report::atlas::{HEAD, atlas, row};
+use looproot::internal::report::atlas::{HEAD, atlas, linkage_row, row, sphere_row};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -30,11 +30,15 @@ pub fn table(paths: &[String]) -> std::result::Result<Exit, Fault> {
     print(HEAD)?;
     let root = paths.first().map_or_else(PathBuf::new, PathBuf::from);
     for file in files(paths)? {
-        // Linkages, frameworks and other files have no single closure polynomial.
-        let Ok(Any::Entry(entry)) = load_solvable(&file, &Options::default()) else { continue };
         let path = Path::new(&file).with_extension("");
         let name = path.strip_prefix(&root).unwrap_or(&path).display().to_string();
-        print(&row(&entry, &name, path.with_extension("eqs").exists()))?;
+        match load_solvable(&file, &Options::default()) {
+            Ok(Any::Entry(entry)) => print(&row(&entry, &name, path.with_extension("eqs").exists()))?,
+            Ok(Any::Linkage(file)) => print(&linkage_row(&file, &name))?,
+            Ok(Any::Sphere(file)) => print(&sphere_row(&file, &name))?,
+            // Frameworks and other files have no closure polynomial.
+            _ => {}
+        }
     }
     Ok(Exit::Complete)
 }
