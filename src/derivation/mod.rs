@@ -4,6 +4,7 @@
 //! sines of the unknowns. The polynomial comes from the same eliminations as the numbers of the solver.
 
 mod boundary;
+mod by_basis;
 mod chain;
 mod cuts;
 mod equation;
@@ -25,15 +26,18 @@ mod true_roots;
 mod two_sides;
 mod ways;
 
+pub use by_basis::{Equations, relation_by_bases};
 pub use equation::Equation;
 pub use interpolation::Watch;
 pub use linkage::{
-    Coordinate, Curve, GroupPolynomial, InputOutput, LinkageDerivation, LinkageSymbolic, Symbol, derive_linkage, derive_linkage_with_symbols,
-    in_cosines, relation_by_values, trace, trace_mass,
+    Coordinate, Curve, CurveSymbolic, GroupPolynomial, InputOutput, LinkageDerivation, LinkageSymbolic, Symbol, derive_linkage, derive_linkage_with_symbols,
+    in_cosines, relation_by_values, trace, trace_mass, trace_with_symbols,
 };
 pub use polynomial::{ClosurePolynomial, Removed, Root};
 pub use pose::RootPose;
-pub use sphere::{SpecialPoint, SphereCurve, Transfer, sphere_sides, sphere_trace, transfer};
+pub use sphere::{
+    SpecialPoint, SphereCurve, SphereEnd, SphereSymbol, SphereSymbolic, Transfer, sphere_sides, sphere_trace, sphere_with_symbols, transfer,
+};
 pub use substitution::Substitution;
 pub(crate) use symbolic::{Place, Setting, derive_interpolated};
 pub(crate) use symbols::variable_name;

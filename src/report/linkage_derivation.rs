@@ -302,7 +302,7 @@ fn circularity(curve: &Curve) -> usize {
     power
 }
 
-const COORDINATES: [&str; 2] = ["x", "y"];
+pub(super) const COORDINATES: [&str; 2] = ["x", "y"];
 
 /// The verdict on a curve.
 #[must_use]

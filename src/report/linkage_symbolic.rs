@@ -1,10 +1,10 @@
 //! Relations of input and output of linkages with symbols, as text and as JSON.
 
-use super::linkage_derivation::{circular, document, ends, heading, pair, rational, tangent, terms, written};
+use super::linkage_derivation::{COORDINATES, circular, document, ends, heading, pair, rational, tangent, terms, written};
 use super::number::counted;
 use super::table::paragraph;
 use crate::catalogue::LinkageFile;
-use crate::derivation::{Coordinate, LinkageSymbolic, in_cosines};
+use crate::derivation::{Coordinate, CurveSymbolic, LinkageSymbolic, in_cosines};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -23,30 +23,49 @@ fn cosines(file: &LinkageFile, found: &LinkageSymbolic) -> Option<String> {
 }
 
 fn steps(found: &LinkageSymbolic) -> Vec<String> {
+    let Some(compared) = found.compared else {
+        return vec!["The third moving link keeps its length: the squared distance of the ends of the two others is a constant.".to_owned()];
+    };
     vec![
         "The relation of input and output is derived at values of the symbols: a determinant by Cramer's rule on the cycles of bodies."
             .to_owned(),
         format!(
             "Those at different values are known up to a factor; the factors are a solution of linear equations, and the coefficients \
-             are interpolated modulo 256 primes. The result equals the relations derived at {} other values, drawn at random.",
-            found.compared
+             are interpolated modulo 256 primes. The result equals the relations derived at {compared} other values, drawn at random."
         ),
     ]
 }
 
-/// `degree 2 in t_A and 2 in t_r, 21 terms in 4 symbols; equal to ...`
+/// `degree 2 in t_A and 2 in t_r, 21 terms in 4 symbols; derived with ...`
 #[must_use]
 pub fn verdict(file: &LinkageFile, found: &LinkageSymbolic) -> String {
     let [input, output] = pair(file, found.input, found.body);
+    let how = found.compared.map_or_else(
+        || "derived with the symbols; the relation of the numbers of the file divides it there".to_owned(),
+        |count| {
+            format!("equal to the relations derived at {count} other values, drawn at random (probability of error below 2^-40)")
+        },
+    );
     format!(
-        "degree {} in {input} and {} in {output}, {} in {}; equal to the relations derived at {} other values, drawn at random \
-         (probability of error below 2^-40)",
+        "degree {} in {input} and {} in {output}, {} in {}; {how}",
         found.polynomial.degree(0),
         found.polynomial.degree(1),
         counted(found.polynomial.len(), "term"),
         counted(found.symbols.len(), "symbol"),
-        found.compared
     )
+}
+
+/// Writes what the symbols are, and which coordinates keep their numbers.
+fn symbols(text: &mut String, file: &LinkageFile, symbols: &[Coordinate], numbers: &[Coordinate]) {
+    let linkage = &file.linkage;
+    text.push_str("\nSymbols: coordinates of points in their bodies\n");
+    for one in symbols {
+        let _ = writeln!(text, "  {} = {}, in the file {}", one.variable(linkage), one.name(linkage), one.value);
+    }
+    if !numbers.is_empty() {
+        let list: Vec<String> = numbers.iter().map(|one| format!("{} = {}", one.name(linkage), one.value)).collect();
+        paragraph(text, &format!("numbers of the file: {}", list.join(", ")));
+    }
 }
 
 /// The relation for a reader.
@@ -55,15 +74,7 @@ pub fn text(file: &LinkageFile, found: &LinkageSymbolic) -> String {
     let linkage = &file.linkage;
     let mut text = format!("{}\n", file.heading.title);
     paragraph(&mut text, &verdict(file, found));
-    text.push_str("\nSymbols: coordinates of points in their bodies\n");
-    for one in &found.symbols {
-        let _ = writeln!(text, "  {} = {}, in the file {}", one.variable(linkage), one.name(linkage), one.value);
-    }
-    if !found.numbers.is_empty() {
-        let list: Vec<String> =
-            found.numbers.iter().map(|one| format!("{} = {}", one.name(linkage), one.value)).collect();
-        paragraph(&mut text, &format!("numbers of the file: {}", list.join(", ")));
-    }
+    symbols(&mut text, file, &found.symbols, &found.numbers);
     text.push_str("\nElimination\n");
     for step in steps(found) {
         paragraph(&mut text, &step);
@@ -95,7 +106,7 @@ pub fn json(file: &LinkageFile, case: usize, found: &LinkageSymbolic) -> Value {
     }
     document["unknowns"] = json!([tangent(file, found.body)]);
     document["steps"] = json!(steps(found));
-    document["proved"] = json!(false);
+    document["proved"] = json!(found.compared.is_none() && file.exact);
     document["symbols"] = found.symbols.iter().map(name).collect();
     document["numbers"] = found.numbers.iter().map(|one| format!("{} = {}", name(one), one.value)).collect();
     document["terms"] = json!(found.polynomial.len());
@@ -109,6 +120,83 @@ pub fn json(file: &LinkageFile, case: usize, found: &LinkageSymbolic) -> Value {
         "polynomial": written(&rational(&found.polynomial), &names),
         "terms": terms(&found.polynomial, names.len()),
         "cosines": cosines(file, found),
+        "agrees": found.agrees,
+    });
+    document
+}
+
+/// `curve of k.P: degree 6 in x and y, 239 terms in 6 symbols; ...`
+#[must_use]
+pub fn curve_verdict(of: &str, found: &CurveSymbolic) -> String {
+    let how = match (found.compared, found.agrees) {
+        (None, true) => "derived with the symbols; the curve of the numbers of the file divides it there".to_owned(),
+        (None, false) => "derived with the symbols, and not compared at the numbers of the file, which are special".to_owned(),
+        (Some(count), _) => format!(
+            "equal to the curves derived at {count} other values, drawn at random (probability of error below 2^-40)"
+        ),
+    };
+    format!(
+        "curve of {of}: degree {} in x and y, {} in {}; {how}",
+        found.degree(),
+        counted(found.polynomial.len(), "term"),
+        counted(found.symbols.len(), "symbol")
+    )
+}
+
+fn curve_steps(found: &CurveSymbolic) -> Vec<String> {
+    let step = match found.compared {
+        None => {
+            "The ends of the coupler satisfy two equations l_k = a_k c + b_k s in cosine and sine of its rotation, one for the length of the crank or the line of the slide at each. Cramer's rule and c^2 + s^2 = 1 give (l_1 b_2 - l_2 b_1)^2 + (a_1 l_2 - a_2 l_1)^2 - (a_1 b_2 - a_2 b_1)^2, which vanishes at every place of the point."
+        }
+        Some(_) => {
+            "The curve is derived at values of the symbols: a determinant by Cramer's rule on the cycles of bodies. Its coefficients are interpolated modulo 256 primes."
+        }
+    };
+    vec![step.to_owned()]
+}
+
+fn curve_variables(file: &LinkageFile, found: &CurveSymbolic) -> Vec<String> {
+    COORDINATES.map(str::to_owned).into_iter().chain(found.symbols.iter().map(|one| one.variable(&file.linkage))).collect()
+}
+
+/// The curve for a reader.
+#[must_use]
+pub fn curve_text(file: &LinkageFile, of: &str, found: &CurveSymbolic) -> String {
+    let mut text = format!("{}\n", file.heading.title);
+    paragraph(&mut text, &curve_verdict(of, found));
+    symbols(&mut text, file, &found.symbols, &found.numbers);
+    text.push_str("\nElimination\n");
+    for step in curve_steps(found) {
+        paragraph(&mut text, &step);
+    }
+    let _ = writeln!(text, "\n{} = 0", written(&rational(&found.polynomial), &curve_variables(file, found)));
+    text
+}
+
+/// The curve as one document.
+#[must_use]
+pub fn curve_json(file: &LinkageFile, case: usize, (body, point): (&str, &str), found: &CurveSymbolic) -> Value {
+    let mut document = document(file, case);
+    let name = |one: &Coordinate| one.name(&file.linkage);
+    let names = curve_variables(file, found);
+    document["verdict"] = json!(curve_verdict(&format!("{body}.{point}"), found));
+    for key in ["unknowns", "equations", "warnings", "removed_factors"] {
+        document[key] = json!([]);
+    }
+    for key in ["degree", "real_roots", "polynomial"] {
+        document[key] = Value::Null;
+    }
+    document["steps"] = json!(curve_steps(found));
+    document["proved"] = json!(found.compared.is_none() && file.exact);
+    document["symbols"] = found.symbols.iter().map(name).collect();
+    document["numbers"] = found.numbers.iter().map(|one| format!("{} = {}", name(one), one.value)).collect();
+    document["trace"] = json!({
+        "body": body,
+        "point": point,
+        "degree": found.degree(),
+        "variables": names,
+        "polynomial": written(&rational(&found.polynomial), &names),
+        "terms": terms(&found.polynomial, names.len()),
         "agrees": found.agrees,
     });
     document

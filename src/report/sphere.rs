@@ -10,7 +10,7 @@ use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::Ring;
 use crate::algebra::text::{Format, Names};
 use crate::catalogue::{SphereCase, SphereFile};
-use crate::derivation::{SpecialPoint, SphereCurve, Transfer};
+use crate::derivation::{SpecialPoint, SphereCurve, SphereEnd, SphereSymbolic, Transfer};
 use crate::kinematics::sphere::SphereGiven;
 use crate::linkage::sphere::{Coordinate, SphereAnswer, SphereMode};
 use looproot_calculus::rotation::matrix::from_matrix;
@@ -188,9 +188,10 @@ const CURVE: &str = "three equations are linear in the end of the crank; by Cram
 /// The sentence on the derivation of a transfer function.
 const TRANSFER: &str = "the ends of crank and rocker include the angle of the coupler; what lies between two four-bars is eliminated";
 
-/// Returns the common part of all documents of derivations.
-fn document(file: &SphereFile, case: usize, verdict: &str, step: &str) -> Value {
-    json!({
+/// Returns a document with the keys that every document of a linkage has; `case` is counted from 1.
+#[must_use]
+pub fn completed(file: &SphereFile, case: usize, own: Value) -> Value {
+    let mut document = json!({
         "name": file.heading.name,
         "version": env!("CARGO_PKG_VERSION"),
         "units": units(),
@@ -199,6 +200,16 @@ fn document(file: &SphereFile, case: usize, verdict: &str, step: &str) -> Value 
         "title": file.heading.title,
         "kind": "linkage",
         "case": case,
+    });
+    if let (Value::Object(document), Value::Object(own)) = (&mut document, own) {
+        document.extend(own);
+    }
+    document
+}
+
+/// Returns the common part of all documents of derivations.
+fn document(file: &SphereFile, case: usize, verdict: &str, step: &str) -> Value {
+    let own = json!({
         "verdict": verdict,
         "unknowns": [],
         "degree": null,
@@ -208,7 +219,8 @@ fn document(file: &SphereFile, case: usize, verdict: &str, step: &str) -> Value 
         "equations": [],
         "steps": [step],
         "warnings": [],
-    })
+    });
+    completed(file, case, own)
 }
 
 /// The verdict on a curve.
@@ -336,4 +348,87 @@ pub fn transfer_text(file: &SphereFile, found: &Transfer) -> String {
         let _ = writeln!(text, "{} divides it: {what}", written(factor, &TANGENTS));
     }
     text
+}
+
+/// The names of the variables of a relation with symbols.
+fn symbolic_names(found: &SphereSymbolic) -> Vec<String> {
+    let own = TANGENTS.map(str::to_owned).into_iter();
+    own.chain(found.symbols.iter().flat_map(|one| ["c", "s"].map(|kind| format!("{kind}_{}", one.name)))).collect()
+}
+
+/// `degree 2 in t and 2 in s, 34 terms in cosines and sines of 4 angles, derived with these as symbols`
+#[must_use]
+pub fn symbolic_verdict(found: &SphereSymbolic) -> String {
+    format!(
+        "degree {} in t and {} in s, {} in cosines and sines of {}, derived with these as symbols",
+        found.polynomial.degree(0),
+        found.polynomial.degree(1),
+        counted(found.polynomial.len(), "term"),
+        counted(found.symbols.len(), "angle")
+    )
+}
+
+/// What an angle of the relation is.
+fn end(file: &SphereFile, end: &SphereEnd, (own, from): (&str, &str)) -> String {
+    let name = &file.linkage.joints[end.joint].name;
+    let sign = if end.sign < 0.0 { "-" } else { "" };
+    format!("{own} is the angle at {name} from {from}: {sign}{name} {:+.6} deg", end.offset.to_degrees())
+}
+
+/// What the two angles are.
+fn angles(file: &SphereFile, found: &SphereSymbolic) -> [String; 2] {
+    let [first, last] = &found.ends;
+    let arc = "the arc of the ground to the crank";
+    [
+        end(file, first, ("phi", arc)),
+        end(file, last, ("psi", "the arc of the last four-bar's ground, continued, to its rocker")),
+    ]
+}
+
+/// The relation with symbols for a reader.
+#[must_use]
+pub fn symbolic_text(file: &SphereFile, found: &SphereSymbolic) -> String {
+    let mut text = format!("{}\n", file.heading.title);
+    paragraph(&mut text, &symbolic_verdict(found));
+    paragraph(&mut text, TRANSFER);
+    text.push_str("\nt = tan(phi/2), s = tan(psi/2)\n");
+    for one in angles(file, found) {
+        paragraph(&mut text, &one);
+    }
+    if !found.symbols.is_empty() {
+        text.push_str("\nSymbols: c is the cosine and s the sine, c^2 + s^2 = 1\n");
+    }
+    for one in &found.symbols {
+        let words = format!("c_{0}, s_{0}: {1}, in the file {2:.6} deg", one.name, one.meaning, one.value.to_degrees());
+        paragraph(&mut text, &words);
+    }
+    let names = symbolic_names(found);
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let _ = writeln!(text, "\n{} = 0", written(&found.polynomial, &names));
+    text
+}
+
+/// The relation with symbols as one document.
+#[must_use]
+pub fn symbolic_json(file: &SphereFile, case: usize, found: &SphereSymbolic) -> Value {
+    let mut document = document(file, case, &symbolic_verdict(found), TRANSFER);
+    let name = |joint: usize| file.linkage.joints[joint].name.clone();
+    let bodies = |bodies: &[usize; 4]| bodies.map(|body| file.linkage.bodies[body].name.clone());
+    let names = symbolic_names(found);
+    let shown: Vec<&str> = names.iter().map(String::as_str).collect();
+    let ends = found.ends.iter().map(|end| json!({ "joint": name(end.joint), "sign": end.sign, "offset": number(end.offset) }));
+    let symbols = found.symbols.iter().map(|one| {
+        json!({ "cosine": format!("c_{}", one.name), "sine": format!("s_{}", one.name), "means": one.meaning, "value": number(one.value) })
+    });
+    document["transfer"] = json!({
+        "input": name(found.ends[0].joint),
+        "output": name(found.ends[1].joint),
+        "variables": names,
+        "polynomial": written(&found.polynomial, &shown),
+        "four_bars": found.bodies.iter().map(bodies).collect::<Vec<_>>(),
+        "constant_ratio": [],
+        "angles": ends.collect::<Value>(),
+        "symbols": symbols.collect::<Value>(),
+    });
+    document
 }

@@ -3,7 +3,8 @@
 
 use looproot::internal::catalogue::{Any, Format, LinkageFile, Options, any_from_text, builtin_any};
 use looproot::internal::derivation::{
-    Curve, LinkageDerivation, Watch, derive_linkage, derive_linkage_with_symbols, in_cosines, trace, trace_mass,
+    Curve, CurveSymbolic, LinkageDerivation, Watch, derive_linkage, derive_linkage_with_symbols, in_cosines, trace,
+    trace_mass, trace_with_symbols,
 };
 use looproot::internal::error::Error;
 use looproot::internal::kinematics::linkage::Accuracy;
@@ -11,7 +12,7 @@ use looproot::internal::linkage::answer::solve;
 use looproot_algebra::int::Int;
 use looproot_algebra::polynomial::Polynomial;
 use looproot_algebra::ring::Ring;
-use rug::Integer;
+use rug::{Integer, Rational};
 
 /// Every point name that several bodies have is a joint.
 const SHARED: &str = r#"joints = "shared points""#;
@@ -253,7 +254,36 @@ fn freudensteins_equation_has_the_lengths_as_symbols() {
         .primitive_part();
     let own = in_cosines(&found.polynomial, true).unwrap();
     assert!(own == expected || own == expected.neg(), "{own:?}");
-    assert!(found.agrees);
+    assert!(found.agrees && found.compared.is_none());
+}
+
+/// Bodies and joints in either order, points beside the axes, the input at either end, and the angle of the coupler as output: what is derived with
+/// symbols is what is derived with numbers.
+#[test]
+fn four_bars_in_any_position_have_symbols() {
+    let joint = |name: &str, of: [&str; 2]| {
+        format!("{{ name = \"{name}\", type = \"R\", of = [\"{}\", \"{}\"] }}", of[0], of[1])
+    };
+    let bodies = "frame = { A = [1, -2], D = [7, 3] }\ncrank = { A = [1, 0], B = [2, 3] }\n\
+                  coupler = { B = [-1, 2], C = [6, 4] }\nrocker = { D = [0, 2], C = [4, 5] }";
+    for is_turned in [false, true] {
+        let of = |a: &'static str, b: &'static str| if is_turned { [b, a] } else { [a, b] };
+        let joints = [
+            joint("A", of("frame", "crank")),
+            joint("B", of("crank", "coupler")),
+            joint("C", of("coupler", "rocker")),
+            joint("D", of("rocker", "frame")),
+        ];
+        let joints = format!("joints = [{}]", joints.join(", "));
+        for input in ["A", "D"] {
+            let file = read(&joints, bodies, &format!("[[input]]\njoint = \"{input}\"\ntan_half = \"1/3\""));
+            let wanted = ["frame.D.x", "crank.B.y", "coupler.C.x"].map(str::to_owned);
+            let found =
+                derive_linkage_with_symbols(&file.linkage, &file.cases[0].given, &wanted, &Watch::none()).unwrap();
+            assert!(found.agrees, "{input} {is_turned}");
+            assert_eq!(found.compared, None, "{input} {is_turned}");
+        }
+    }
 }
 
 #[test]
@@ -385,4 +415,60 @@ fn the_curve_of_a_centre_of_mass_holds_its_places() {
             assert!(value.abs() < 1e-9 * size, "{input}: {value}");
         }
     }
+}
+
+fn with_symbols(file: &LinkageFile, of: &str, names: &[&str]) -> Result<CurveSymbolic, Error> {
+    let (body, point) = of.split_once('.').unwrap();
+    let body = file.linkage.bodies.iter().position(|own| own.name == body).unwrap();
+    let point = file.linkage.bodies[body].points.iter().position(|(own, _)| own == point).unwrap();
+    let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
+    trace_with_symbols(&file.linkage, &file.cases[0].given, (body, point), &names, &Watch::none())
+}
+
+/// Puts numbers in the place of the symbols.
+fn at_file(found: &CurveSymbolic) -> Polynomial<Int> {
+    let values = found.symbols.iter().enumerate().map(|(k, one)| (2 + k, Polynomial::constant(one.value.clone())));
+    let rational = found.polynomial.map(|c| Some(Rational::from(c.to_integer()))).unwrap();
+    rational.substitute_all(&values.collect::<Vec<_>>()).primitive().0
+}
+
+#[test]
+fn the_sextic_of_a_four_bar_has_its_lengths_as_symbols() {
+    let bodies = r#"frame = { A = ["0", "0"], D = ["6", "0"] }
+crank = { A = ["0", "0"], B = ["3", "0"] }
+coupler = { B = ["0", "0"], C = ["5", "0"], P = ["2", "3"] }
+rocker = { D = ["0", "0"], C = ["4", "0"] }"#;
+    let file = read(SHARED, bodies, "");
+    let found = with_symbols(&file, "coupler.P", &[]).unwrap();
+    // Ground, crank, coupler, the two coordinates of the point, rocker.
+    assert_eq!((found.symbols.len(), found.degree(), found.compared), (6, 6, None));
+    assert!(found.agrees);
+    assert_eq!(at_file(&found), with_terms(&SEXTIC));
+    // Wampler's determinant is the squares of crank and rocker times an irreducible sextic of 239 terms.
+    assert_eq!(found.polynomial.len(), 239);
+    let one = with_symbols(&file, "coupler.P", &["coupler.P.y"]).unwrap();
+    assert_eq!(at_file(&one), with_terms(&SEXTIC));
+    assert!(with_symbols(&file, "coupler.P", &["coupler.P.z"]).is_err());
+    // The end of the crank runs on its circle, whatever the other lengths are.
+    let circle = with_symbols(&file, "crank.B", &["crank.B.x"]).unwrap();
+    assert_eq!(at_file(&circle), with_terms(&[(2, 0, 1), (0, 2, 1), (0, 0, -9)]));
+}
+
+#[test]
+fn the_quartic_of_a_slider_crank_has_symbols() {
+    let joints = r#"joints = [
+    { name = "A", type = "R", of = ["frame", "crank"] },
+    { name = "B", type = "R", of = ["crank", "rod"] },
+    { name = "C", type = "R", of = ["rod", "piston"] },
+    { name = "S", type = "P", of = ["frame", "piston"], along = [1, 0] },
+]"#;
+    let bodies = r"frame = { A = 0, S = [0, 1] }
+crank = { A = 0, B = 2 }
+rod = { B = 0, C = 5, P = [2, 3] }
+piston = { C = 0, S = 0 }";
+    let file = read(joints, bodies, "");
+    let found = with_symbols(&file, "rod.P", &[]).unwrap();
+    assert!(found.agrees && found.compared.is_none());
+    assert_eq!((found.symbols.len(), found.degree()), (5, 4));
+    assert_eq!(at_file(&found), curve(&file, "rod.P").unwrap().polynomial);
 }

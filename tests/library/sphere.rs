@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use looproot::internal::catalogue::{Any, Format, Options, SphereFile, any_from_text, builtin_any};
-use looproot::internal::derivation::{sphere_trace, surface, transfer};
+use looproot::internal::derivation::{sphere_trace, sphere_with_symbols, surface, transfer};
 use looproot::internal::linkage::grashof::spherical;
 use looproot::internal::linkage::sphere::solve;
 use looproot::internal::verdict::{Proof, Status};
@@ -233,5 +233,36 @@ fn surfaces_of_open_chains_hold_the_points_of_the_chains() {
             let at = forward.pose(&q).translation;
             assert!(polynomial.evaluate(&at).abs() < 1e-9, "{name} at {q:?}");
         }
+    }
+}
+
+#[test]
+fn relations_with_symbols_hold_at_all_assemblies() {
+    for (name, symbols, degrees) in
+        [("spherical_four_bar", 4, [2, 2]), ("hooke_series", 2, [4, 4]), ("spherical_watt", 3, [2, 2])]
+    {
+        let file = builtin(&format!("linkage/{name}"));
+        let case = &file.cases[0];
+        let found = sphere_with_symbols(&file.linkage, case.given[0].joint.unwrap()).unwrap();
+        assert!(found.symbols.len() >= symbols, "{name}: {:?}", found.symbols);
+        assert!((0..2).all(|k| found.polynomial.degree(k) <= degrees[k]), "{name}");
+        let answer = solve(&file.linkage, &case.given, true).unwrap();
+        let mut compared = 0;
+        for mode in answer.modes.iter().filter(|mode| mode.real) {
+            let tangents =
+                found.ends.each_ref().map(|end| (0.5 * (end.sign * mode.joints[end.joint].re + end.offset)).tan());
+            let values: Vec<f64> = tangents
+                .into_iter()
+                .chain(found.symbols.iter().flat_map(|one| [one.value.cos(), one.value.sin()]))
+                .collect();
+            let terms = found.polynomial.terms().map(|(exponents, c)| {
+                let powers = exponents.iter().zip(&values).map(|(e, x)| x.powi(i32::try_from(*e).unwrap()));
+                c.to_integer().to_f64() * powers.product::<f64>()
+            });
+            let (sum, size) = terms.fold((0.0, 0.0), |(sum, size), term: f64| (sum + term, size + term.abs()));
+            assert!(sum.abs() < 1e-12 * size, "{name}: {sum} of {size}");
+            compared += 1;
+        }
+        assert!(compared >= 2, "{name}");
     }
 }

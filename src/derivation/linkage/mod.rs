@@ -2,15 +2,19 @@
 
 mod closure;
 mod cosines;
+mod four_bar;
 mod inputs;
+mod places;
 mod symbolic;
 mod trace;
+mod trace_symbolic;
 
 pub use closure::{GroupPolynomial, InputOutput, LinkageDerivation, Symbol, derive_linkage};
 pub use cosines::in_cosines;
 pub use inputs::relation_by_values;
 pub use symbolic::{Coordinate, LinkageSymbolic, derive_linkage_with_symbols};
 pub use trace::{Curve, trace, trace_mass};
+pub use trace_symbolic::{CurveSymbolic, trace_with_symbols};
 
 use crate::algebra::int::Int;
 use crate::algebra::modular::Terms;

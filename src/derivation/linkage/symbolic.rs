@@ -2,6 +2,7 @@
 
 use super::closure::{InputNumber, Relation, derive_linkage};
 use super::cosines::integers;
+use super::four_bar::four_bar;
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Domain, Ring};
@@ -53,6 +54,14 @@ impl Coordinate {
     /// # Errors
     /// [`Error::Unsupported`] where two points of a body are at one place.
     pub fn all(linkage: &Linkage, joints: &[usize]) -> Result<Vec<Self>> {
+        Self::with_point(linkage, joints, None)
+    }
+
+    /// Returns the coordinates of all points at which some joints are, and of another point: its body, and its number there.
+    ///
+    /// # Errors
+    /// As [`Self::all`].
+    pub fn with_point(linkage: &Linkage, joints: &[usize], other: Option<(usize, usize)>) -> Result<Vec<Self>> {
         let mut list = Vec::new();
         for (body, own) in linkage.bodies.iter().enumerate() {
             for (point, (name, place)) in own.points.iter().enumerate() {
@@ -62,7 +71,7 @@ impl Coordinate {
                     joint.of[*side] == body && joint.at[*side] == *place
                 };
                 let ends: Vec<(usize, usize)> = ends.filter(is_here).collect();
-                if ends.is_empty() {
+                if ends.is_empty() && other != Some((body, point)) {
                     continue;
                 }
                 if let Some((other, _)) = own.points.iter().find(|(other, at)| other != name && at == place) {
@@ -113,8 +122,9 @@ pub struct LinkageSymbolic {
     pub numbers: Vec<Coordinate>,
     /// The polynomial.
     pub polynomial: Polynomial<Int>,
-    /// Number of other values, drawn at random, at which it equals the relation that is derived from numbers.
-    pub compared: usize,
+    /// Number of other values, drawn at random, at which it equals the relation that is derived from numbers; `None` of a four-bar, of which
+    /// it is derived with the symbols themselves.
+    pub compared: Option<usize>,
     /// Whether at the numbers of the file the relation derived from these divides it.
     pub agrees: bool,
 }
@@ -172,8 +182,12 @@ impl Source for Relations<'_> {
 }
 
 /// Returns the symbols that are wanted, or all coordinates other than zero, and the other coordinates.
-fn chosen(linkage: &Linkage, joints: &[usize], wanted: &[String]) -> Result<(Vec<Coordinate>, Vec<Coordinate>)> {
-    let all = Coordinate::all(linkage, joints)?;
+pub(super) fn chosen(
+    linkage: &Linkage,
+    all: Vec<Coordinate>,
+    wanted: &[String],
+    most: usize,
+) -> Result<(Vec<Coordinate>, Vec<Coordinate>)> {
     if let Some(twice) = wanted.iter().enumerate().find(|(k, name)| wanted[..*k].contains(name)) {
         return Err(Error::Invalid(format!("found the symbol {} twice, expected each name once", twice.1)));
     }
@@ -188,36 +202,16 @@ fn chosen(linkage: &Linkage, joints: &[usize], wanted: &[String]) -> Result<(Vec
         if wanted.is_empty() { one.value != 0 } else { wanted.contains(&one.name(linkage)) }
     };
     let (symbols, numbers): (Vec<Coordinate>, Vec<Coordinate>) = all.into_iter().partition(is_symbol);
-    if symbols.is_empty() || symbols.len() > MOST_SYMBOLS {
-        let message =
-            format!("found {} symbols, expected one to {MOST_SYMBOLS}, some of {}", symbols.len(), known(&symbols));
+    if symbols.is_empty() || symbols.len() > most {
+        let message = format!("found {} symbols, expected one to {most}, some of {}", symbols.len(), known(&symbols));
         return Err(Error::Unsupported(message));
     }
     Ok((symbols, numbers.into_iter().filter(|one| one.value != 0).collect()))
 }
 
-/// Derives the relation of the first given joint and the output, the other given joints held, with coordinates of points as symbols: those `wanted`, named as
-/// `crank.B.x`, else all of the joints concerned that are not zero.
-///
-/// # Errors
-/// As [`derive_linkage`]; [`Error::Unsupported`] without a given joint, for more than six symbols, if there would be more than 100,000
-/// terms, and where it is ended; [`Error::Invalid`] for an unknown symbol.
-pub fn derive_linkage_with_symbols(
-    linkage: &Linkage,
-    given: &[Given],
-    wanted: &[String],
-    watch: &Watch<'_>,
-) -> Result<LinkageSymbolic> {
-    let none = || {
-        let message = "with symbols the relation of an input and an output is derived, and there is none: expected a given joint and a \
-                       closure polynomial";
-        Error::Unsupported(message.to_owned())
-    };
-    let base = derive_linkage(linkage, given)?;
-    let relation = base.relations.into_iter().next().flatten();
-    let (relation, own) = relation.zip(base.input_output).ok_or_else(none)?;
-    let (symbols, numbers) = chosen(linkage, &relation.joints, wanted)?;
-    let mut source = Relations { linkage, relation: &relation, symbols: &symbols, degrees: [0, 0] };
+/// Returns the relation by interpolation.
+fn interpolated(linkage: &Linkage, relation: &Relation, symbols: &[Coordinate], watch: &Watch<'_>) -> Result<Polynomial<Int>> {
+    let mut source = Relations { linkage, relation, symbols, degrees: [0, 0] };
     let first = source.at(&Values::Scattered.start(symbols.len())).ok_or_else(none)?;
     source.degrees = [0, 1].map(|k| first.degree(k) as usize);
     let [input, output] = source.degrees;
@@ -235,11 +229,43 @@ pub fn derive_linkage_with_symbols(
         let terms = coefficients.iter().enumerate().filter(|(_, c)| !c.is_zero());
         Polynomial::from_terms(terms.map(|(place, c)| (powers(place).to_vec(), Rational::from(c))))
     })?;
-    let polynomial = relation.in_metres(integers(&found), linkage).ok_or_else(none)?;
-    let of_file = symbols.iter().enumerate().map(|(k, one)| (2 + k, Polynomial::constant(one.value.clone())));
-    let rational = polynomial.map(|c| Some(Rational::from(c.to_integer()))).ok_or_else(none)?;
-    let at_file = integers(&rational.substitute_all(&of_file.collect::<Vec<_>>()));
-    let agrees = at_file.checked_div_exact(&own.polynomial).is_some();
+    relation.in_metres(integers(&found), linkage).ok_or_else(none)
+}
+
+fn none() -> Error {
+    let message = "with symbols the relation of an input and an output is derived, and there is none: expected a given joint and a \
+                   closure polynomial";
+    Error::Unsupported(message.to_owned())
+}
+
+/// Derives the relation of the first given joint and the output, the other given joints held, with coordinates of points as symbols: those `wanted`, named as
+/// `crank.B.x`, else all of the joints concerned that are not zero.
+///
+/// # Errors
+/// As [`derive_linkage`]; [`Error::Unsupported`] without a given joint, for more than six symbols, if there would be more than 100,000
+/// terms, and where it is ended; [`Error::Invalid`] for an unknown symbol.
+pub fn derive_linkage_with_symbols(
+    linkage: &Linkage,
+    given: &[Given],
+    wanted: &[String],
+    watch: &Watch<'_>,
+) -> Result<LinkageSymbolic> {
+    let base = derive_linkage(linkage, given)?;
+    let relation = base.relations.into_iter().next().flatten();
+    let (relation, own) = relation.zip(base.input_output).ok_or_else(none)?;
+    let (symbols, numbers) = chosen(linkage, Coordinate::all(linkage, &relation.joints)?, wanted, MOST_SYMBOLS)?;
+    let agrees = |polynomial: &Polynomial<Int>| {
+        let of_file = symbols.iter().enumerate().map(|(k, one)| (2 + k, Polynomial::constant(one.value.clone())));
+        let rational = polynomial.map(|c| Some(Rational::from(c.to_integer())))?;
+        let at_file = rational.substitute_all(&of_file.collect::<Vec<_>>());
+        (!at_file.is_zero()).then(|| integers(&at_file).checked_div_exact(&own.polynomial).is_some())
+    };
+    let direct = four_bar(linkage, &relation, &symbols).filter(|found| agrees(found) == Some(true));
+    let (polynomial, compared) = match direct {
+        Some(found) => (found, None),
+        None => (interpolated(linkage, &relation, &symbols, watch)?, Some(COMPARED)),
+    };
+    let agrees = agrees(&polynomial).ok_or_else(none)?;
     Ok(LinkageSymbolic {
         input: relation.input,
         held: relation.held_joints(),
@@ -250,7 +276,7 @@ pub fn derive_linkage_with_symbols(
         symbols,
         numbers,
         polynomial,
-        compared: COMPARED,
+        compared,
         agrees,
     })
 }

@@ -54,12 +54,18 @@ impl Curve {
 /// # Errors
 /// For a point that does not move on a curve, and for curves that are not implemented.
 pub fn trace(linkage: &Linkage, given: &[Given], body: usize, point: &Gaussian) -> Result<Curve> {
+    let group = mover(linkage, given, body)?;
     let held = held(linkage, given)?;
-    let (mut merged, joints) = glued(linkage, held)?;
-    let name = &linkage.bodies[body].name;
+    let (mut merged, _) = glued(linkage, held)?;
+    curve(linkage, held, &mut merged, &group, &linkage.bodies[body].name, &[(body, point.clone(), Rational::from(1))])
+}
+
+/// Returns the least part of one freedom that moves a body against the ground.
+pub(super) fn mover(linkage: &Linkage, given: &[Given], body: usize) -> Result<Group> {
+    let (mut merged, joints) = glued(linkage, held(linkage, given)?)?;
     let group = least_mover(linkage, &joints, &mut merged, linkage.ground, body);
-    let group = group.ok_or_else(|| unsupported(name, "is made by no part of one freedom among at most 16 bodies"))?;
-    curve(linkage, held, &mut merged, &group, name, &[(body, point.clone(), Rational::from(1))])
+    let what = "is made by no part of one freedom among at most 16 bodies";
+    group.ok_or_else(|| unsupported(&linkage.bodies[body].name, what))
 }
 
 /// Returns the curve of the centre of mass of bodies, each with its own centre and its mass, as [`trace`].
@@ -84,7 +90,7 @@ fn unsupported(name: &str, what: &str) -> Error {
 }
 
 /// Returns the given values that are held while the first one moves.
-fn held<'g>(linkage: &Linkage, given: &'g [Given]) -> Result<&'g [Given]> {
+pub(super) fn held<'g>(linkage: &Linkage, given: &'g [Given]) -> Result<&'g [Given]> {
     let links: Vec<(usize, [usize; 2])> = linkage.joints.iter().enumerate().map(|(k, joint)| (k, joint.of)).collect();
     if let Some(gear) = linkage.joints.iter().find(|joint| joint.is_gear()) {
         return Err(Error::Unsupported(format!(

@@ -1,9 +1,11 @@
 //! Four-bars on the sphere: transfer functions and coupler curves as polynomials.
 
 mod curve;
+mod symbolic;
 mod transfer;
 
 pub use curve::{SpecialPoint, SphereCurve, sides as sphere_sides, sphere_trace};
+pub use symbolic::{SphereEnd, SphereSymbol, SphereSymbolic, sphere_with_symbols};
 pub use transfer::{Transfer, transfer};
 
 use crate::error::{Error, Result};
@@ -67,4 +69,32 @@ impl FourBar {
             })
         })
     }
+}
+
+/// Returns the four-bars in series behind a joint at the ground: the rocker of each is the crank of the next.
+///
+/// # Errors
+/// [`Error::Unsupported`] for another joint, and if its crank drives no four-bar or more than two.
+fn series(linkage: &SphereLinkage, input: usize) -> Result<Vec<FourBar>> {
+    let [a, b] = linkage.joints[input].of;
+    let name = &linkage.joints[input].name;
+    let mut crank = match (a == linkage.ground, b == linkage.ground) {
+        (true, _) => b,
+        (_, true) => a,
+        _ => return Err(Error::Unsupported(format!("a transfer function from the joint {name}, which is not at the ground"))),
+    };
+    let (mut joint, mut before, mut list) = (input, Vec::new(), Vec::new());
+    while let Some(four) = FourBar::of_crank(linkage, joint, crank, &before) {
+        before.extend([crank, four.bodies[2]]);
+        (joint, crank) = (four.joints[3], four.bodies[3]);
+        list.push(four);
+    }
+    if list.is_empty() {
+        return Err(Error::Unsupported(format!("a transfer function from the joint {name}, whose crank drives no four-bar")));
+    }
+    // What lies between two four-bars is eliminated from two quadratic equations.
+    if list.len() > 2 {
+        return Err(Error::Unsupported(format!("a transfer function from the joint {name} through more than two four-bars")));
+    }
+    Ok(list)
 }

@@ -1,6 +1,6 @@
 //! The transfer function of a four-bar on the sphere, or of several in series.
 
-use super::{FourBar, axis};
+use super::{FourBar, axis, series};
 use crate::algebra::int::Int;
 use crate::algebra::number::{Angle, HalfTangent};
 use crate::algebra::polynomial::Polynomial;
@@ -32,31 +32,23 @@ pub struct Transfer {
 /// Derives the relation of the angle of a joint at the ground to that of the last rocker behind it.
 ///
 /// # Errors
-/// If the crank of the joint belongs to no four-bar, or its angles are no rational functions of half-angle tangents.
+/// If the crank of the joint drives no four-bar or more than two, or its angles are no rational functions of half-angle tangents.
 pub fn transfer(linkage: &SphereLinkage, input: usize) -> Result<Transfer> {
-    let [a, b] = linkage.joints[input].of;
-    let name = &linkage.joints[input].name;
-    let mut crank = match (a == linkage.ground, b == linkage.ground) {
-        (true, _) => b,
-        (_, true) => a,
-        _ => return Err(Error::Unsupported(format!("a transfer function from the joint {name}, which is not at the ground"))),
-    };
-    let (mut joint, mut before, mut bodies) = (input, Vec::new(), Vec::new());
+    let fours = series(linkage, input)?;
     let mut relation: Option<Plane> = None;
-    while let Some(four) = FourBar::of_crank(linkage, joint, crank, &before) {
-        let next = of_four_bar(linkage, &four)?;
+    for four in &fours {
+        let next = of_four_bar(linkage, four)?;
         relation = Some(match relation {
             None => next,
             Some(first) => eliminated(&first, &next),
         });
-        before.extend([crank, four.bodies[2]]);
-        bodies.push(four.bodies);
-        (joint, crank) = (four.joints[3], four.bodies[3]);
     }
-    let none = || Error::Unsupported(format!("a transfer function from the joint {name}, whose crank drives no four-bar"));
+    let none = || Error::Unsupported("the transfer function vanishes for all angles".to_owned());
     let polynomial = without_circles(relation.filter(|p| !p.is_zero()).ok_or_else(none)?.primitive().0);
     let constant_ratio = constant_ratio(&polynomial);
-    Ok(Transfer { input, output: joint, bodies, polynomial, constant_ratio })
+    let output = fours.last().map_or(input, |four| four.joints[3]);
+    let bodies = fours.iter().map(|four| four.bodies).collect();
+    Ok(Transfer { input, output, bodies, polynomial, constant_ratio })
 }
 
 fn number(q: &Rational) -> Plane {
@@ -64,7 +56,7 @@ fn number(q: &Rational) -> Plane {
 }
 
 /// Returns `1 + t^2`.
-fn circle(variable: usize) -> Plane {
+pub(super) fn circle(variable: usize) -> Plane {
     let t = Plane::variable(variable);
     t.mul(&t).add(&Ring::one())
 }
@@ -113,7 +105,7 @@ fn of_four_bar(linkage: &SphereLinkage, four: &FourBar) -> Result<Plane> {
 }
 
 /// Returns the relation of t and s if both are related to one more variable, in which both relations are quadratic.
-fn eliminated(first: &Plane, second: &Plane) -> Plane {
+pub(super) fn eliminated(first: &Plane, second: &Plane) -> Plane {
     let quadratic = |p: &Plane, variable: usize| {
         let mut list = p.coefficients_in(variable);
         list.resize(3, Plane::zero());
@@ -126,7 +118,7 @@ fn eliminated(first: &Plane, second: &Plane) -> Plane {
 }
 
 /// Removes the factors `1 + t^2` and `1 + s^2`, on which no angle is real.
-fn without_circles(mut polynomial: Polynomial<Int>) -> Polynomial<Int> {
+pub(super) fn without_circles(mut polynomial: Polynomial<Int>) -> Polynomial<Int> {
     for variable in 0..2 {
         let t = Polynomial::<Int>::variable(variable);
         let circle = t.mul(&t).add(&Ring::one());

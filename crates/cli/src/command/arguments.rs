@@ -323,7 +323,7 @@ pub struct DeriveOptions {
     #[arg(long, conflicts_with_all = ["explain", "symbolic", "bless", "pose", "input", "joints", "legs", "at"])]
     pub transference: bool,
     /// Linkages: the curve of a point of a body, as a polynomial in its coordinates
-    #[arg(long, value_name = "BODY.POINT", conflicts_with_all = ["explain", "symbolic", "bless", "format"])]
+    #[arg(long, value_name = "BODY.POINT", conflicts_with_all = ["explain", "bless", "format"])]
     pub trace: Option<String>,
     /// --trace of a point of the coupler of a four-bar: the two other four-bars with the same curve, as files
     #[arg(long, requires = "trace")]

@@ -7,7 +7,9 @@ use super::linkage::{posed, wanted};
 use super::output::Output;
 use super::symbols;
 use looproot::internal::catalogue::LinkageFile;
-use looproot::internal::derivation::{derive_linkage, derive_linkage_with_symbols, trace, trace_mass};
+use looproot::internal::derivation::{
+    derive_linkage, derive_linkage_with_symbols, trace, trace_mass, trace_with_symbols,
+};
 use looproot::internal::error::Error;
 use looproot::internal::kinematics::linkage::{Accuracy, Gaussian, Given};
 use looproot::internal::linkage::cognates::{COUPLER, cognates};
@@ -51,6 +53,11 @@ pub fn run(options: &DeriveOptions, mechanism: &str, file: &LinkageFile) -> Resu
             report::cognates_text(file, (asked, &curve), &found, &equal)
         };
         (written, if file.exact && equal.iter().all(|is_equal| *is_equal) { Exit::Complete } else { Exit::NotProved })
+    } else if let (Some(asked), Some(list)) = (&options.trace, &options.symbolic) {
+        let Some(pair) = curve_with_symbols(options, (file, index), asked, list, &in_place)? else {
+            return Ok(Exit::Interrupted);
+        };
+        pair
     } else if let Some(asked) = &options.trace {
         let (name, point, curve) = if asked == "mass" {
             ("mass", "centre", trace_mass(&file.linkage, &case.given, &masses(file)?).map_err(in_place)?)
@@ -79,8 +86,9 @@ pub fn run(options: &DeriveOptions, mechanism: &str, file: &LinkageFile) -> Resu
         } else {
             symbolic::text(file, &found)
         };
-        // It is compared at values drawn at random, which is no proof.
-        (written, Exit::NotProved)
+        // Comparison at values drawn at random is no proof.
+        let is_proved = found.compared.is_none() && file.exact;
+        (written, if is_proved { Exit::Complete } else { Exit::NotProved })
     } else {
         let derivation = derive_linkage(&file.linkage, &case.given).map_err(in_place)?;
         let written = if options.json {
@@ -107,6 +115,32 @@ pub fn run(options: &DeriveOptions, mechanism: &str, file: &LinkageFile) -> Resu
     Ok(exit)
 }
 
+/// Derives the curve of a point with symbols; `None` if it was interrupted.
+fn curve_with_symbols(
+    options: &DeriveOptions,
+    (file, index): (&LinkageFile, usize),
+    asked: &str,
+    list: &str,
+    in_place: &dyn Fn(Error) -> Error,
+) -> Result<Option<(String, Exit)>, Fault> {
+    let (body, name, _) = file.point(asked)?;
+    let point = file.linkage.bodies[body].points.iter().position(|(own, _)| own == name);
+    let point = point.ok_or_else(|| Error::Invalid(format!("found no point {asked}, expected one of the file")))?;
+    let (given, names) = (&file.cases[index].given, symbols::names(list));
+    let derived =
+        symbols::watched(options, |watch| trace_with_symbols(&file.linkage, given, (body, point), &names, watch));
+    let Some(found) = derived.map_err(in_place)? else { return Ok(None) };
+    let written = if options.json {
+        format!("{}\n", symbolic::curve_json(file, index + 1, (&file.linkage.bodies[body].name, name), &found))
+    } else if options.quiet {
+        symbolic::curve_verdict(asked, &found) + "\n"
+    } else {
+        symbolic::curve_text(file, asked, &found)
+    };
+    let is_proved = found.compared.is_none() && file.exact;
+    Ok(Some((written, if is_proved { Exit::Complete } else { Exit::NotProved })))
+}
+
 /// Returns the bodies with a mass, their centres and masses.
 fn masses(file: &LinkageFile) -> Result<Vec<(usize, Gaussian, Rational)>, Error> {
     let mut list = Vec::new();
@@ -127,6 +161,7 @@ pub fn refuse(options: &DeriveOptions) -> Result<(), Error> {
         (options.format.is_some(), "--format"),
         (options.explain.is_some(), "--explain"),
         (options.transference, "--transference"),
+        (options.by.is_some(), "--by"),
     ];
     match found.iter().find(|(is_there, _)| *is_there) {
         Some((_, option)) => Err(Error::Unsupported(format!("found {option} for a linkage, which has none yet"))),

@@ -1,13 +1,15 @@
 //! `looproot solve`, `looproot derive` and `looproot sweep` for linkages on the sphere.
 
 use super::arguments::{DeriveOptions, SolveOptions, SweepOptions};
+use super::discriminant::{self, Asked};
 use super::exit::{Exit, Fault};
 use super::linkage::{code, refuse, written};
 use super::output::{Output, pool};
 use super::space_instant::on_sphere;
 use super::sweep::{judged, range};
+use super::symbols;
 use looproot::internal::catalogue::SphereFile;
-use looproot::internal::derivation::{sphere_trace, transfer};
+use looproot::internal::derivation::{sphere_trace, sphere_with_symbols, transfer};
 use looproot::internal::error::Error;
 use looproot::internal::kinematics::closed_loop::Variable;
 use looproot::internal::linkage::sphere::solve;
@@ -15,7 +17,7 @@ use looproot::internal::report::axodes;
 use looproot::internal::report::ratio::Ratio;
 use looproot::internal::report::sphere as report;
 use looproot::internal::report::sphere_sweep as sweeps;
-use looproot::internal::sweep::sweep_sphere;
+use looproot::internal::sweep::{SphereCase, sweep_sphere};
 use looproot::internal::view::drawable;
 use std::borrow::Cow;
 use std::io::Write;
@@ -85,14 +87,32 @@ pub fn run(options: &SolveOptions, file: &SphereFile, output: Output) -> Result<
 /// Derives the transfer function of the joint that is given, or the curve of a point.
 pub fn derive(options: &DeriveOptions, mechanism: &str, file: &SphereFile) -> Result<Exit, Fault> {
     super::linkage_derive::refuse(options)?;
-    if options.symbolic.is_some() {
-        return Err(
-            Error::Unsupported("found --symbolic for a linkage on the sphere, which has none yet".to_owned()).into()
-        );
+    if let Some(list) = &options.symbolic {
+        if options.trace.is_some() {
+            let message = "found --symbolic with --trace of a linkage on the sphere, whose curves have no symbols yet";
+            return Err(Error::Unsupported(message.to_owned()).into());
+        }
+        if !symbols::names(list).is_empty() {
+            let message = format!(
+                "found --symbolic={list} of a linkage on the sphere, expected --symbolic alone: all sides are symbols"
+            );
+            return Err(Error::Invalid(message).into());
+        }
     }
     let file = &*posed(options.asked.input.as_deref(), file)?;
     let index = wanted(options.asked.input.as_deref(), file)?.start;
-    let in_place = |error: Error| error.at(mechanism, file.cases[index].line);
+    let case = &file.cases[index];
+    let in_place = |error: Error| error.at(mechanism, case.line);
+    if let Some(names) = &options.discriminant {
+        let asked = Asked {
+            subject: SphereCase::new(&file.linkage, &case.given, [file.exact, case.exact]),
+            title: &file.heading.title,
+            reading: &file.reading,
+            place: &in_place,
+            document: &|value| format!("{}\n", report::completed(file, index + 1, value)),
+        };
+        return discriminant::run(options, mechanism, &asked, names);
+    }
     let written = if let Some(asked) = &options.trace {
         let (body, point, place) = file.point(asked)?;
         let curve = sphere_trace(&file.linkage, body, &place).map_err(in_place)?;
@@ -104,23 +124,38 @@ pub fn derive(options: &DeriveOptions, mechanism: &str, file: &SphereFile) -> Re
             report::curve_text(file, asked, &curve)
         }
     } else {
-        let given = file.cases[index].given.iter().find_map(|given| given.joint);
-        let ground = file.linkage.joints.iter().position(|joint| joint.of.contains(&file.linkage.ground));
-        let input =
-            given.or(ground).ok_or_else(|| Error::Invalid("found no joint at the ground, expected one".to_owned()))?;
-        let found = transfer(&file.linkage, input).map_err(in_place)?;
-        if options.json {
-            format!("{}\n", report::transfer_json(file, index + 1, &found))
-        } else if options.quiet {
-            report::transfer_verdict(file, &found) + "\n"
-        } else {
-            report::transfer_text(file, &found)
-        }
+        relation(options, file, index).map_err(in_place)?
     };
     let mut output = Output::open(&options.output, mechanism)?;
     output.writer.write_all(written.as_bytes())?;
     output.writer.flush()?;
     Ok(if file.exact { Exit::Complete } else { Exit::NotProved })
+}
+
+/// Writes the transfer function of the joint that is given, with numbers or with symbols.
+fn relation(options: &DeriveOptions, file: &SphereFile, index: usize) -> Result<String, Error> {
+    let given = file.cases[index].given.iter().find_map(|given| given.joint);
+    let ground = file.linkage.joints.iter().position(|joint| joint.of.contains(&file.linkage.ground));
+    let input =
+        given.or(ground).ok_or_else(|| Error::Invalid("found no joint at the ground, expected one".to_owned()))?;
+    if options.symbolic.is_some() {
+        let found = sphere_with_symbols(&file.linkage, input)?;
+        return Ok(if options.json {
+            format!("{}\n", report::symbolic_json(file, index + 1, &found))
+        } else if options.quiet {
+            report::symbolic_verdict(&found) + "\n"
+        } else {
+            report::symbolic_text(file, &found)
+        });
+    }
+    let found = transfer(&file.linkage, input)?;
+    Ok(if options.json {
+        format!("{}\n", report::transfer_json(file, index + 1, &found))
+    } else if options.quiet {
+        report::transfer_verdict(file, &found) + "\n"
+    } else {
+        report::transfer_text(file, &found)
+    })
 }
 
 /// Sweeps a joint through its range and prints the branches.
