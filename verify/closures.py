@@ -1,8 +1,8 @@
 """Closure equations, and the proof that a ball holds one solution of them: theorem 1 of docs/certificate.md."""
-from flint import acb, acb_mat, arb
+from flint import acb, acb_mat, arb, fmpq
 
-from motions import IDENTITY, about_z, along, chain, column, dot, of_quaternion, times, turned
-from quantities import Refused, Unreadable, decimal, fields, items, whole
+from motions import IDENTITY, about_x, about_z, along, chain, column, dot, inverse, of_quaternion, times, turned
+from quantities import Refused, Unreadable, by_half_tangent, decimal, fields, items, whole
 
 TURN, SLIDE = "turn", "slide"
 MOST_RADIUS = arb(1) / 1000
@@ -29,8 +29,23 @@ class Chain:
     def constants(self):
         return [x for link in self.links for row in link for x in row]
 
+    def longer(self):
+        """With rotations about axes that nothing distinguishes behind its last link, up to six unknowns."""
+        parts = [part for pair in zip(self.kinds, self.links) for part in pair]
+        for k in range(6 - self.size):
+            cos, sin = by_half_tangent(fmpq(3, 5 + 2 * k))
+            about_y = [[cos, 0, sin, 0], IDENTITY[1], [-sin, 0, cos, 0], IDENTITY[3]]
+            about_x_axis = about_x(*by_half_tangent(fmpq(2 + k, 7)))
+            frame = chain([inverse(self.first), along(fmpq(k + 1, 3), fmpq(1, k + 2), 0), about_x_axis, about_y])
+            parts += [frame, TURN, inverse(frame)]
+        return Chain(parts, self.spherical) if self.size < 6 else self
+
     def product(self, x):
-        moved = [about_z(t.cos(), t.sin()) if kind == TURN else along(0, 0, t) for kind, t in zip(self.kinds, x)]
+        return self.around([(t.cos(), t.sin()) if kind == TURN else (t,) for kind, t in zip(self.kinds, x)])
+
+    def around(self, x):
+        """The motion round the loop, of cosine and sine or the distance of every unknown."""
+        moved = [about_z(*own) if kind == TURN else along(0, 0, *own) for kind, own in zip(self.kinds, x)]
         return chain(part for pair in zip(moved, self.links) for part in pair)
 
     def values(self, x):
@@ -74,6 +89,9 @@ def six(m):
 class Platform:
     """|x|^2 = 1 and |p + R b - a|^2 = l^2 for the six legs; x is the quaternion of R, and the unknowns are x and p."""
     size, kinds, spherical = 7, "platform", []
+
+    def longer(self):
+        return self
 
     def __init__(self, base, plate, squares):
         self.base, self.plate, self.squares = base, plate, squares
@@ -142,7 +160,7 @@ def prove(system, point, radius):
 
 
 def proved_modes(system, values):
-    """The numbers of all modes and of the real ones: each ball holds one solution, real or not as it says, and all differ."""
+    """All modes as (centre, radius, is real): each ball holds one solution, real or not as it says, and all differ."""
     modes = []
     for at, value in enumerate(items(values), 1):
         point, radius = centre_of(system, value)
@@ -164,4 +182,4 @@ def proved_modes(system, values):
                        for form in system.forms(other)):
                 raise Refused(f"modes {k} and {at}: they may be the same solution")
         modes.append((point, radius, real))
-    return len(modes), sum(real for *_, real in modes)
+    return modes

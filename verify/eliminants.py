@@ -6,9 +6,10 @@ w = (p.p) l - 2 (p.l) p. Motions act on such vectors by matrices: numbers of deg
 from flint import acb, arb, arb_mat, arb_poly, fmpq, fmpq_mat, fmpq_poly
 
 from closures import TURN
-from motions import about_z, along, column, cross, dot, inverse, times, turned
+from motions import IDENTITY, about_z, along, column, cross, dot, inverse, times, turned
 from quantities import Refused, by_half_tangent, decimal, fields, is_exact, whole
 
+HELD = "held"  # an unknown that stands at 0
 LONGEST = 512  # bits of a number of a link
 Z_AXIS = [fmpq(1)] + [fmpq(0)] * 3 + [fmpq(0), fmpq(0), fmpq(1)] + [fmpq(0)] * 8
 HALVES = [(1, 0, 1), (1, 0, -1), (0, 2, 0)]  # 1, cos, sin, times 1 + t^2, as polynomials in the half-angle tangent t
@@ -31,6 +32,8 @@ def split(line, kind):
     if kind == TURN:
         still, cos, sin = (moved(about_z(fmpq(c), fmpq(s)), line) for c, s in ((0, 0), (1, 0), (0, 1)))
         return [still, [x - y for x, y in zip(cos, still)], [x - y for x, y in zip(sin, still)]]
+    if kind == HELD:
+        return [line, [fmpq(0)] * 15, [fmpq(0)] * 15]
     up, down = (moved(along(0, 0, fmpq(x)), line) for x in (1, -1))
     return [line, [(x - y) / 2 for x, y in zip(up, down)], [(x + y) / 2 - z for x, y, z in zip(up, down, line)]]
 
@@ -60,7 +63,7 @@ def equations(links, kinds):
     right = {e: moved(inverse(links[5]), line) for e, line in right.items()}
     known = right.pop((0, 0))
     right = {e: line for e, line in right.items() if not all(x == 0 for x in line)}
-    own = [(1, 0), (0, 1)] + [(2, 0)] * (kinds[4] == TURN) + [(0, 2)] * (kinds[5] == TURN)
+    own = [(1, 0)] * (kinds[4] != HELD) + [(0, 1)] * (kinds[5] != HELD) + [(2, 0)] * (kinds[4] == TURN) + [(0, 2)] * (kinds[5] == TURN)
     left[0, 0, 0] = [x - y for x, y in zip(left[0, 0, 0], known)]
     table = [[line[i] for line in (*right.values(), *left.values())] for i in range(1, 15)]
     steps, others, *_, table = eliminate(table, range(len(right)))
@@ -94,7 +97,7 @@ class Eliminant:
 
     def __init__(self, links, kinds, first, hidden, shift=fmpq(0)):
         links, kinds = [*links[first:], *links[:first]], [*kinds[first:], *kinds[:first]]
-        if not (first < 6 and hidden < 3 and kinds[3] == TURN):
+        if not (first < 6 and hidden < 3 and kinds[3] in (TURN, HELD)) or HELD in kinds[:3]:
             raise Refused("proof: eliminant: no such unknown, or the fourth from the first is no rotation")
         self.is_angle = kinds[hidden] == TURN
         if self.is_angle:  # counted from another place
@@ -139,10 +142,11 @@ def check_lengths(links, shift):
 def most_solutions(system, aid):
     """Theorem 4: the number of solutions that the eliminant allows, complex ones included."""
     first, hidden, shift = fields(aid, ("first", "hidden", "shift"))
-    if system.kinds == "platform" or system.size != 6 or system.spherical or not is_exact(system.constants()):
+    if system.kinds == "platform" or system.size > 6 or system.spherical or not is_exact(system.constants()):
         raise Refused("proof: eliminant: only loops of rotations and translations with rational constants have one")
     check_lengths(system.links, decimal(shift))
-    eliminant = Eliminant(system.links, system.kinds, whole(first), whole(hidden), decimal(shift))
+    links, kinds = ([*own, *[other] * (6 - system.size)] for own, other in ((system.links, IDENTITY), (system.kinds, HELD)))
+    eliminant = Eliminant(links, kinds, whole(first), whole(hidden), decimal(shift))
     minor, circle = eliminant.polynomial(), fmpq_poly([1, 0, 1]).numer()
     if eliminant.is_angle and minor.degree() < 24:
         raise Refused("proof: eliminant: an angle of pi is a root")

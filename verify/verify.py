@@ -12,13 +12,15 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.set_int_max_str_digits(4300)
 try:
+    from algebraic import points
     from bounds import distance, general, geometry
     from closure_polynomial import check_polynomial
     from closures import proved_modes
     from eliminants import most_solutions
     from mechanism import FAULTS, Reader, is_same, of_file
     from mobility import curve, immobile, regular
-    from quantities import Refused, Unreadable, Whole, fields, items, whole
+    from motions import IDENTITY
+    from quantities import Refused, Unreadable, Whole, fields, is_exact, items, whole
     from real_zeros import most_real
 except ImportError as error:
     sys.exit(f"error: {error}; python-flint is needed: pip install python-flint")
@@ -26,9 +28,9 @@ except ImportError as error:
 LONGEST = 4 << 20  # bytes of one certificate
 # The items of a proof, and the theorem of each: of `solve` the most solutions that there are, with complex ones or without, from the
 # system and what is under `aid`; of `mobility` the dimension of the motion.
-SOLUTIONS = {"general-bound": general, "geometry-bound": geometry, "eliminant": most_solutions}
+SOLUTIONS = {"general-bound": general, "geometry-bound": geometry, "eliminant": most_solutions, "own-eliminant": most_solutions}
 REAL_SOLUTIONS = {"real-zeros": most_real, "distance": distance}
-MOTIONS = {"eliminant": immobile, "curve": curve, "regular": regular}
+MOTIONS = {"eliminant": immobile, "general-bound": immobile, "curve": curve, "regular": regular}
 
 
 def check(certificate, file):
@@ -40,22 +42,25 @@ def check(certificate, file):
     verb, is_motion = claim.get("verb"), claim.get("verb") == "mobility"
     if verb not in ("solve", "mobility", "derive") or claim.get("proof") != "proved":
         raise Refused("claim: only proved answers of solve, mobility and derive are covered")
-    if len(items(proof)) != (2 if verb == "derive" else 1):
-        raise Refused(f"proof: found {len(proof)} items, expected one, and a second one for derive")
-    item, known = proof[0], MOTIONS if is_motion else {**SOLUTIONS, **REAL_SOLUTIONS}
+    system, = Reader(data, True).systems(not is_motion)
+    item, *others = items(proof)
+    # A second item says which solutions of a longer loop are those of a shorter one, or that they are all roots of a polynomial.
+    second = {"solve": "points" if system.size < 6 and others else None, "derive": "membership"}.get(verb)
+    if [other.get("kind") for other in others] != [second] * (second is not None):
+        raise Refused(f"proof: found {1 + len(others)} items, expected one, and a second one for polynomials and loops of fewer than six unknowns")
+    known = MOTIONS if is_motion else {**SOLUTIONS, **REAL_SOLUTIONS}
     if item.get("kind") not in known:
         raise Unreadable(f"proof: found the kind {str(item.get('kind'))[:40]!r}, expected one of {', '.join(known)}")
-    system, = Reader(data, True).systems(not is_motion)
     if file is not None and not any(is_same(system, own) for own in file(not is_motion)):
         raise Refused("file: the data of the certificate are those of no case of the file")
     if verb == "derive":
         of_polynomial = {key: claim.pop(key) for key in ("unknown", "degree", "polynomial")}
-        words = of_solutions(system, claim, modes, item)
-        if item["kind"] not in SOLUTIONS or proof[1].get("kind") != "membership":
-            raise Refused("proof: the roots of a polynomial are proved by all solutions, and by membership")
-        check_polynomial(system, modes, of_polynomial, proof[1])
+        words = of_solutions(system, claim, modes, item, [])
+        if item["kind"] not in SOLUTIONS or system.size < 6:
+            raise Refused("proof: the roots of a polynomial are proved by all solutions of a loop of six unknowns")
+        check_polynomial(system, modes, of_polynomial, others[0])
         return f"{words}; of the polynomial of degree {of_polynomial['degree']} they are all roots"
-    return of_motion(data, claim, modes, item) if is_motion else of_solutions(system, claim, modes, item)
+    return of_motion(data, claim, modes, item) if is_motion else of_solutions(system, claim, modes, item, others)
 
 
 def of_motion(data, claim, modes, item):
@@ -68,25 +73,42 @@ def of_motion(data, claim, modes, item):
     return f"{status}, of dimension {found}: proved"
 
 
-def of_solutions(system, claim, modes, item):
+def of_solutions(system, claim, modes, item, others):
     kind, has_complex = item["kind"], item["kind"] in SOLUTIONS
     _, status, _, real, *total = fields(claim, ("verb", "status", "proof", "real", *(("complex",) if has_complex else ())))
-    if system.size != (7 if system.kinds == "platform" else 6):
-        raise Refused(f"closure: {system.size} unknowns, where this checker proves loops of six")
-    keys = {"distance": (), "eliminant": ("value", "aid"), "real-zeros": ("value", "aid")}.get(kind, ("value",))
+    size, longer = system.size, system.longer()
+    if longer.size != (7 if system.kinds == "platform" else 6) or size < 6 and not has_complex or size > 5 and kind == "own-eliminant":
+        raise Refused(f"closure: {size} unknowns, where this checker proves loops of six, and of fewer with all solutions")
+    is_of_own = kind == "own-eliminant"
+    keys = ("value", "aid") if kind in ("eliminant", "own-eliminant", "real-zeros") else ("value",) * (kind != "distance")
     _, *stated = fields(item, ("kind", *keys))
-    found, found_real = proved_modes(system, modes)
-    bound = {**SOLUTIONS, **REAL_SOLUTIONS}[kind](system, *stated[1:])
+    found = proved_modes(longer, modes)
+    bound = {**SOLUTIONS, **REAL_SOLUTIONS}[kind](system if is_of_own else longer, *stated[1:])
     if bound is None or stated and whole(stated[0]) != bound:
         raise Refused(f"proof: {kind}: the value is {stated[:1]}, where the bound is {'not known' if bound is None else bound}")
-    if found != bound or not has_complex and found_real != bound:
-        raise Refused(f"proof: {kind}: at most {bound} solutions, and {found} modes are proved, {found_real} of them real")
-    if [whole(x) for x in (real, *total)] != [found_real, found][:1 + has_complex]:
-        raise Refused(f"claim: found other numbers than {found} solutions, {found_real} of them real")
+    if len(found) != bound or not has_complex and not all(is_real for *_, is_real in found):
+        raise Refused(f"proof: {kind}: at most {bound} solutions, and {len(found)} modes are proved, some of them perhaps not real")
+    if size < 6:
+        # Those of the longer loop at which its added rotations stand at 0.
+        found = [mode for mode in found if not any(longer.differ(k, mode[0][k], mode[1]) for k in range(size, 6))]
+        exact = sum(exact_solutions(system, other) for other in others)
+        if len(found) != exact or is_of_own and exact != bound:
+            raise Refused(f"proof: points: they are {exact}, and {len(found)} modes may be solutions of the loop")
+    found_real = sum(is_real for *_, is_real in found)
+    if [whole(x) for x in (real, *total)] != [found_real, len(found)][:1 + has_complex]:
+        raise Refused(f"claim: found other numbers than {len(found)} solutions, {found_real} of them real")
     if status != ("complete" if found_real else "unreachable"):
         raise Refused(f"claim: the status is {str(status)[:40]!r}, where {found_real} real solutions are proved")
-    of_all = f"{found} solutions, {found_real} of them real" if has_complex else f"{found_real or 'no'} real solutions"
+    of_all = f"{len(found)} solutions, {found_real} of them real" if has_complex else f"{found_real or 'no'} real solutions"
     return f"{of_all}: complete, proved"
+
+
+def exact_solutions(system, item):
+    """Theorem 11: the number of points of an item, at all of which the loop closes."""
+    modulus, point = points(item, system.kinds)
+    if system.spherical or not is_exact(system.constants()) or system.around(point) != IDENTITY:
+        raise Refused("proof: points: the loop is not closed there")
+    return modulus.degree()
 
 
 def refuse_constant(text):

@@ -11,6 +11,9 @@ const STEPS: usize = 600;
 /// Corrections below this part of a root end the iteration, as a power of two: further steps only meet rounding.
 const DIGITS: u32 = 300;
 
+/// The same in f64, and the distance of roots that it tells apart.
+const ROUNDED: f64 = 1e-12;
+
 /// Returns the roots, with these places as first starts; `None` if they are not separated.
 ///
 /// # Source
@@ -60,7 +63,29 @@ fn starting(monic: &[Longer], degree: usize, starts: &[Complex<f64>]) -> Vec<Lon
     // An angle that is no rational part of 2 pi keeps the starts off the symmetries of the polynomial.
     let on_circle = |k: usize| Complex::from_polar(radius, 0.7 + 2.399_963 * k as f64);
     places.extend((places.len()..degree).map(on_circle));
-    places.iter().map(point).collect()
+    rounded(monic, &places).unwrap_or(places).iter().map(point).collect()
+}
+
+/// Improves starts in f64, where a step costs little; `None` if they do not become different numbers.
+fn rounded(monic: &[Longer], starts: &[Complex<f64>]) -> Option<Vec<Complex<f64>>> {
+    let monic: Vec<Complex<f64>> = monic.iter().map(|c| Complex::new(c.re().to_f64(), c.im().to_f64())).collect();
+    let mut points = starts.to_vec();
+    for _ in 0..STEPS {
+        let correction = |k: usize| {
+            let z = points[k];
+            let value = monic.iter().rev().fold(Complex::new(0.0_f64, 0.0), |value, c| value * z + c);
+            let others = points.iter().enumerate().filter(|(other, _)| *other != k);
+            value / others.fold(Complex::new(1.0_f64, 0.0), |product, (_, other)| product * (z - other))
+        };
+        let corrections: Vec<Complex<f64>> = (0..points.len()).map(correction).collect();
+        let is_done = corrections.iter().zip(&points).all(|(w, z)| w.norm() <= ROUNDED * z.norm());
+        points = points.iter().zip(&corrections).map(|(z, w)| z - w).collect();
+        if is_done {
+            break;
+        }
+    }
+    let is_apart = |k: usize| points[..k].iter().all(|other| (other - points[k]).norm() > ROUNDED * points[k].norm());
+    (points.iter().all(|z| z.is_finite()) && (0..points.len()).all(is_apart)).then_some(points)
 }
 
 fn corrections(monic: &[Longer], points: &[Longer]) -> Option<Vec<Longer>> {

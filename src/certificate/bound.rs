@@ -1,7 +1,7 @@
 //! Proofs that no solution is missing: upper bounds on the number of isolated solutions that equal the number of modes.
 
 use super::chain::ChainClosure;
-use super::eliminant::{Choice, solutions_by_eliminant};
+use super::eliminant::{Choice, own_solutions_by_eliminant, solutions_by_eliminant};
 use super::fault::{Fault, refused, unreadable};
 use super::incidence::of_axes;
 use super::isolation::Closed;
@@ -16,6 +16,9 @@ use serde_json::{Value, json};
 /// The half-angle tangents from which hidden angles are counted, tried in turn, in case an angle is pi.
 const SHIFTS: [(i32, i32); 2] = [(0, 1), (1, 4)];
 
+/// The kind of the item of a loop of fewer than six unknowns whose eliminant is that without added rotations.
+pub(super) const OF_OWN: &str = "own-eliminant";
+
 /// Returns the bound stated in the proof of a certificate. The balls are those of its modes; the bound does not rest on them.
 pub(super) fn bound(closed: &Closed, proof: &[Value], balls: &[Ball]) -> Result<usize, Fault> {
     let [item] = proof else {
@@ -28,17 +31,18 @@ pub(super) fn bound(closed: &Closed, proof: &[Value], balls: &[Ball]) -> Result<
     let known = match kind {
         "general-bound" => general(closed),
         "geometry-bound" => geometry(closed),
-        "eliminant" => {
+        "eliminant" | OF_OWN => {
             let [_, _, aid] = fields(item, ["kind", "value", "aid"], &[])?;
             let choice = Choice::read(aid)?;
             match closed {
+                Closed::Chain(closure) if kind == OF_OWN => Some(own_solutions_by_eliminant(closure, &choice, balls)?),
                 Closed::Chain(closure) => Some(solutions_by_eliminant(closure, &choice, balls)?),
                 Closed::Platform(_) => None,
             }
         }
         _ => return unreadable(format!("proof: found the kind `{}`", super::fault::shortened(&kind))),
     };
-    let optional: &[&str] = if kind == "eliminant" { &["aid"] } else { &[] };
+    let optional: &[&str] = if kind == "eliminant" || kind == OF_OWN { &["aid"] } else { &[] };
     let [_, value] = fields(item, ["kind", "value"], optional)?;
     let stated = count(value)?;
     match known {
@@ -62,6 +66,14 @@ pub fn proof_of(closed: &Closed, balls: &[Ball]) -> Option<Value> {
     let meets = |choice: &Choice| solutions_by_eliminant(closure, choice, balls) == Ok(value);
     let choice = choices.find(meets)?;
     Some(json!({ "kind": "eliminant", "value": value, "aid": choice.json() }))
+}
+
+/// Returns a proof that a loop of fewer than six unknowns has no solutions outside the balls; `None` if no eliminant gives this bound.
+#[must_use]
+pub fn proof_of_own(closure: &ChainClosure, balls: &[Ball]) -> Option<Value> {
+    let value = balls.len();
+    let choice = choices().find(|choice| own_solutions_by_eliminant(closure, choice, balls) == Ok(value))?;
+    Some(json!({ "kind": OF_OWN, "value": value, "aid": choice.json() }))
 }
 
 /// Returns a proof that there are no real solutions but so many; `None` if theorem 9 gives none.
@@ -95,7 +107,8 @@ fn general(closed: &Closed) -> Option<usize> {
     }
 }
 
-fn of_chains(closure: &ChainClosure) -> Option<usize> {
+/// As [`general`], of a loop.
+pub(super) fn of_chains(closure: &ChainClosure) -> Option<usize> {
     let translations = closure.variables.iter().filter(|v| **v == Variable::Translation).count();
     match (closure.spherical.len(), translations) {
         (0, 0 | 1) => Some(16),

@@ -8,7 +8,8 @@ use super::fault::{Fault, refused, unreadable};
 use super::isolation::{Closure, Point};
 use super::mode::Ball;
 use crate::algebra::enclosure::Enclosure;
-use crate::algebra::ring::Ring;
+use crate::algebra::number::{Angle, HalfTangent};
+use crate::algebra::ring::{Ring, exact_cos_sin};
 use crate::catalogue::entry::{Case, InputValue};
 use crate::kinematics::chain::{Chain, JointKind};
 use crate::kinematics::closed_loop::{OpenLoop, angle_motion, distance_motion};
@@ -16,7 +17,7 @@ use crate::kinematics::joint::{JointVariable, Variable};
 use crate::kinematics::motion::{Motion, dot};
 use rug::{Float, Rational, float::Constant};
 
-/// A closed loop of six unknowns.
+/// A closed loop of six unknowns. A loop of fewer is one with rotations added behind its last link, which stand at 0 where it closes.
 pub struct ChainClosure {
     /// The kind of each unknown.
     pub(super) variables: [Variable; 6],
@@ -24,64 +25,110 @@ pub struct ChainClosure {
     pub(super) links: [Motion<Enclosure>; 6],
     /// The same motions as rationals, if all numbers are rational.
     pub(super) exact: Option<[Motion<Rational>; 6]>,
+    /// Number of the unknowns that are not added.
+    pub(super) own: usize,
+    /// The motions behind the unknowns without those that are added, if all numbers are rational.
+    pub(super) own_links: Option<Vec<Motion<Rational>>>,
     /// Index of the given joint variable, if there is one.
     pub(super) given: Option<usize>,
     /// Index of the first of the three angles of every spherical joint.
     pub(super) spherical: Vec<usize>,
 }
 
-/// The kinds of the unknowns, the constant motions behind them, and the index of the given joint variable.
-type Links<R> = ([Variable; 6], [Motion<R>; 6], Option<usize>);
+/// A loop of any number of unknowns.
+struct Around<R> {
+    variables: Vec<Variable>,
+    /// The constant motion behind each unknown.
+    links: Vec<Motion<R>>,
+    /// The part of the last link that stands in front of the first unknown.
+    before: Motion<R>,
+    given: Option<usize>,
+}
 
-/// Returns the loop of a case over a ring.
-fn links<R: Ring>(chain: &Chain, case: &Case) -> Result<Links<R>, Fault> {
-    let own = || Fault::Unreadable("found numbers that are not known well enough".to_owned());
-    let (mut variables, mut motions) = chain.unknowns_and_constants::<R>().ok_or_else(own)?;
-    let named = JointVariable::of(&chain.joint_kinds());
-    if variables.len() != named.len() || named.iter().any(|v| v.kind == JointKind::Helical) {
-        return refused("closure: a helical joint has no certificate");
+impl<R: Ring> Around<R> {
+    /// Reads the loop of a case over a ring, of none without an input.
+    fn of(chain: &Chain, case: Option<&Case>) -> Result<Self, Fault> {
+        let own = || Fault::Unreadable("found numbers that are not known well enough".to_owned());
+        let (mut variables, mut motions) = chain.unknowns_and_constants::<R>().ok_or_else(own)?;
+        let named = JointVariable::of(&chain.joint_kinds());
+        if variables.len() != named.len() || named.iter().any(|v| v.kind == JointKind::Helical) {
+            return refused("closure: a helical joint has no certificate");
+        }
+        if let (Some(pose), Some(last)) = (case.and_then(|case| case.pose.as_ref()), motions.last_mut()) {
+            *last = last.then_after(&pose.inverse_image::<R>().ok_or_else(own)?);
+        }
+        let input = case.map(|case| case.input.as_slice()).unwrap_or_default();
+        if input.len() > 1 {
+            return refused("closure: several inputs");
+        }
+        let mut given = None;
+        if let Some(input) = input.first() {
+            let is_given =
+                |v: &JointVariable| v.joint == input.joint && v.variable == input.value.variable() && v.turn == 0;
+            let Some(at) = named.iter().position(is_given) else {
+                return unreadable(format!("joint {} has no such variable", input.joint));
+            };
+            let held = match &input.value {
+                InputValue::Angle(angle) => angle_motion::<R>(angle),
+                InputValue::Distance(distance) => distance_motion(distance),
+            };
+            given = Some(at);
+            variables.remove(at);
+            let behind = motions.remove(at + 1);
+            motions[at] = motions[at].then_after(&held.ok_or_else(own)?).then_after(&behind);
+        }
+        let before = motions.remove(0);
+        let Some(last) = motions.last_mut() else { return unreadable("found no joint that moves") };
+        *last = last.then_after(&before);
+        Ok(Self { variables, links: motions, before, given })
     }
-    if let (Some(pose), Some(last)) = (&case.pose, motions.last_mut()) {
-        *last = last.then_after(&pose.inverse_image::<R>().ok_or_else(own)?);
-    }
-    if case.input.len() > 1 {
-        return refused("closure: several inputs");
-    }
-    let mut given = None;
-    if let Some(input) = case.input.first() {
-        let is_given =
-            |v: &JointVariable| v.joint == input.joint && v.variable == input.value.variable() && v.turn == 0;
-        let Some(at) = named.iter().position(is_given) else {
-            return unreadable(format!("joint {} has no such variable", input.joint));
+
+    /// Adds rotations about axes that nothing distinguishes, which are given in the frame of the ground.
+    fn lengthened(mut self) -> Result<([Variable; 6], [Motion<R>; 6]), Fault> {
+        let count = self.links.len();
+        let about = |p: u32, q: u32| {
+            let (cos, sin) = exact_cos_sin(&Angle::from_half_tangent(HalfTangent::Finite(Rational::from((p, q)))));
+            Some((R::from_rational(&cos)?, R::from_rational(&sin)?))
         };
-        let held = match &input.value {
-            InputValue::Angle(angle) => angle_motion::<R>(angle),
-            InputValue::Distance(distance) => distance_motion(distance),
+        let frame = |k: u32| {
+            let (cos, sin) = about(2 + k, 7)?;
+            let mut frame = Motion::rotation_x(cos, sin);
+            let place = [Rational::from((k + 1, 3)), Rational::from((1, k + 2)), Rational::new()];
+            let [x, y, z] = place.each_ref().map(R::from_rational);
+            frame.translation = [x?, y?, z?];
+            let (cos, sin) = about(3, 5 + 2 * k)?;
+            let mut about_y = Motion::identity();
+            about_y.rotation[0] = [cos.clone(), R::zero(), sin.clone()];
+            about_y.rotation[2] = [sin.neg(), R::zero(), cos];
+            Some(self.before.inverse().then_after(&frame).then_after(&about_y))
         };
-        given = Some(at);
-        variables.remove(at);
-        let behind = motions.remove(at + 1);
-        motions[at] = motions[at].then_after(&held.ok_or_else(own)?).then_after(&behind);
+        for k in 0..u32::try_from(6_usize.saturating_sub(count)).unwrap_or(0) {
+            let (Some(frame), Some(last)) = (frame(k), self.links.last_mut()) else { continue };
+            *last = last.then_after(&frame);
+            self.links.push(frame.inverse());
+            self.variables.push(Variable::Rotation);
+        }
+        match (<[_; 6]>::try_from(self.variables), <[_; 6]>::try_from(self.links)) {
+            (Ok(variables), Ok(links)) => Ok((variables, links)),
+            _ => refused(format!("closure: {count} unknowns, where loops of at most six are covered")),
+        }
     }
-    let count = variables.len();
-    let Ok(variables) = <[Variable; 6]>::try_from(variables) else {
-        return refused(format!("closure: {count} unknowns, where loops of six are covered"));
-    };
-    let before = motions.remove(0);
-    motions[5] = motions[5].then_after(&before);
-    Ok((variables, motions.try_into().map_err(|_| own())?, given))
 }
 
 impl ChainClosure {
-    /// Returns the loop of a case; `is_exact` means that all its numbers are rational.
-    pub(super) fn of(chain: &Chain, case: &Case, is_exact: bool) -> Result<Self, Fault> {
-        let (variables, enclosed, given) = links::<Enclosure>(chain, case)?;
+    /// Returns the loop of a case, or that without an input; `is_exact` means that all its numbers are rational.
+    pub(super) fn of(chain: &Chain, case: Option<&Case>, is_exact: bool) -> Result<Self, Fault> {
+        let around = Around::<Enclosure>::of(chain, case)?;
+        let (own, given) = (around.links.len(), around.given);
+        let (variables, links) = around.lengthened()?;
         let named = JointVariable::of(&chain.joint_kinds());
         let unknown = named.iter().enumerate().filter(|(at, _)| Some(*at) != given);
         let is_first = |(_, v): &(usize, &JointVariable)| v.kind == JointKind::Spherical && v.turn == 1;
         let spherical = unknown.enumerate().filter(|(_, v)| is_first(v)).map(|(k, _)| k).collect();
-        let exact = if is_exact { Some(links::<Rational>(chain, case)?.1) } else { None };
-        Ok(Self { variables, links: enclosed, exact, given, spherical })
+        let exact = is_exact.then(|| Around::<Rational>::of(chain, case)).transpose()?;
+        let own_links = exact.as_ref().map(|around| around.links.clone());
+        let exact = exact.map(|around| Ok(around.lengthened()?.1)).transpose()?;
+        Ok(Self { variables, links, exact, own, own_links, given, spherical })
     }
 
     /// Returns the loop in f64.
@@ -138,7 +185,7 @@ fn moved<S: Enclosing>(link: &Motion<S>, point: &Point<S>, k: usize) -> Motion<S
 }
 
 /// Returns the skew part of the rotation, and the translation.
-fn six<S: Ring>(rotation: &[[S; 3]; 3], translation: &[S; 3]) -> [S; 6] {
+pub(super) fn six<S: Ring>(rotation: &[[S; 3]; 3], translation: &[S; 3]) -> [S; 6] {
     let [x, y, z] = translation.clone();
     let skew = |i: usize, j: usize| rotation[i][j].sub(&rotation[j][i]);
     [skew(2, 1), skew(0, 2), skew(1, 0), x, y, z]
@@ -206,6 +253,14 @@ impl Closure<6> for ChainClosure {
         }
         let radius = Rational::from(&one.radius + &other.radius);
         forms.iter().all(|form| (0..6).any(|k| self.are_far(k, form[k], one, other, &radius)))
+    }
+}
+
+impl ChainClosure {
+    /// Whether all added unknowns may be 0 in a ball, so that it may hold a solution of the loop itself.
+    pub(super) fn may_be_own(&self, ball: &Ball) -> bool {
+        let zero = Ball { centre: vec![(Rational::new(), Rational::new()); 6], ..ball.clone() };
+        !(self.own..6).any(|k| self.are_far(k, 0, ball, &zero, &ball.radius))
     }
 }
 

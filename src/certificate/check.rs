@@ -1,6 +1,7 @@
 //! The check of a certificate as a whole.
 
-use super::bound::bound;
+use super::algebraic::{self, exact_solutions};
+use super::bound::{OF_OWN, bound};
 use super::chain::ChainClosure;
 use super::data::{data_of, data_of_loop, entry_of};
 use super::distance;
@@ -88,17 +89,32 @@ pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> 
         }
     }
     let closed = closed(&entry, case)?;
-    let (proof, membership) = match (&record.claim.polynomial, record.proof.as_slice()) {
-        (Some(_), [bound, item]) if item.get("kind").and_then(Value::as_str) == Some(polynomial::KIND) => {
-            (std::slice::from_ref(bound), Some(item))
-        }
-        (Some(_), _) => return refused("proof: the roots of a polynomial are proved by all solutions, and by membership"),
-        (None, proof) => (proof, None),
+    let own = if let Closed::Chain(closure) = &closed { closure.own } else { 6 };
+    // A second item says which solutions of a longer loop are those of a shorter one, or that they are all roots of a polynomial.
+    let second = |kind: &str| record.proof.get(1).is_some_and(|item| item.get("kind").and_then(Value::as_str) == Some(kind));
+    let is_whole = match (&record.claim.polynomial, record.proof.len()) {
+        (Some(_), 2) => own == 6 && second(polynomial::KIND),
+        (None, 2) => own < 6 && second(algebraic::KIND),
+        (None, 1) => true,
+        _ => false,
     };
-    let kind = match proof {
-        [item] if membership.is_none() => item.get("kind").and_then(Value::as_str).unwrap_or_default(),
-        _ => "",
-    };
+    if !is_whole {
+        let items = record.proof.len();
+        return refused(format!(
+            "proof: found {items} items, expected one, and a second one for polynomials and loops of fewer than six unknowns"
+        ));
+    }
+    let (proof, second) = (&record.proof[..1], record.proof.get(1));
+    let kind = proof[0].get("kind").and_then(Value::as_str).unwrap_or_default();
+    if own < 6 && [distance::KIND, real_zeros::KIND].contains(&kind) {
+        return refused(format!("closure: {own} unknowns, where all solutions are asked for"));
+    }
+    if own == 6 && kind == OF_OWN {
+        return refused("proof: own-eliminant: the loop has six unknowns");
+    }
+    if record.claim.polynomial.is_some() && [distance::KIND, real_zeros::KIND].contains(&kind) {
+        return refused("proof: the roots of a polynomial are proved by all solutions");
+    }
     if kind == distance::KIND {
         return out_of_reach(&closed, &proof[0], &record.claim, record.modes.len());
     }
@@ -111,20 +127,37 @@ pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> 
         return real_list(&closed, &proof[0], &record.claim, &balls);
     }
     let bound = bound(&closed, proof, &balls)?;
+    if bound != balls.len() {
+        return refused(format!("proof: at most {bound} solutions, and {} modes are proved", balls.len()));
+    }
+    let balls = match &closed {
+        Closed::Chain(closure) if own < 6 => own_solutions(closure, balls, second)?,
+        _ => balls,
+    };
     let (complex, real) = (balls.len(), balls.iter().filter(|ball| ball.real).count());
-    if bound != complex {
-        return refused(format!("proof: at most {bound} solutions, and {complex} modes are proved"));
+    if kind == OF_OWN && complex != bound {
+        return refused(format!("proof: {OF_OWN}: at most {bound} solutions, and {complex} are proved"));
     }
     if record.claim.complex != Some(complex) || record.claim.real != Some(real) {
         return refused(format!("claim: other numbers than {complex} solutions, {real} of them real, are proved"));
     }
     check_status(&record.claim, real)?;
-    if let (Some(claim), Some(item)) = (&record.claim.polynomial, membership) {
+    if let (Some(claim), Some(item)) = (&record.claim.polynomial, second) {
         let Closed::Chain(closure) = &closed else { return refused("proof: membership: only loops have an eliminant") };
         polynomial::check_polynomial(closure, &balls, claim, item)?;
         return Ok(Holds::Polynomial { complex, real });
     }
     Ok(Holds::Solutions { complex, real })
+}
+
+/// Returns the balls of the solutions of a loop of fewer than six unknowns among those of the longer loop: theorem 11.
+fn own_solutions(closure: &ChainClosure, balls: Vec<Ball>, item: Option<&Value>) -> Result<Vec<Ball>, Fault> {
+    let own: Vec<Ball> = balls.into_iter().filter(|ball| closure.may_be_own(ball)).collect();
+    if own.len() != item.map_or(Ok(0), |item| exact_solutions(closure, item))? {
+        let modes = own.len();
+        return refused(format!("proof: points: their number is other than {modes}, that of modes that may be solutions of the loop"));
+    }
+    Ok(own)
 }
 
 fn check_status(claim: &Claim, real: usize) -> Result<(), Fault> {
@@ -204,7 +237,7 @@ pub fn closed(entry: &Entry, case: &Case) -> Result<Closed, Fault> {
             let is_exact = !entry.rounded
                 && case.pose.as_ref().is_none_or(|pose| pose.given.is_none())
                 && case.input.iter().all(|input| input.value.is_exact());
-            Closed::Chain(Box::new(ChainClosure::of(chain, case, is_exact)?))
+            Closed::Chain(Box::new(ChainClosure::of(chain, Some(case), is_exact)?))
         }
         Design::Platform(platform) => Closed::Platform(Box::new(PlatformClosure::of(platform, case)?)),
     })

@@ -5,7 +5,7 @@ use super::all_roots::all_roots;
 use super::chain::ChainClosure;
 use super::fault::{Fault, refused};
 use super::isolation::Longer;
-use super::lines::{COLUMNS, Rows, Square, at, matrix};
+use super::lines::{COLUMNS, Kinds, Rows, Square, at, matrix};
 use super::mode::Ball;
 use super::record::{count, decimal, fields};
 use crate::algebra::determinant::modular;
@@ -57,23 +57,36 @@ pub(super) fn solutions_by_eliminant(closure: &ChainClosure, choice: &Choice, ba
     let Some(links) = closure.exact.as_ref().filter(|_| closure.spherical.is_empty()) else {
         return refused("proof: eliminant: only loops of rotations and translations with rational constants have one");
     };
+    solutions_of_loop(links, &closure.variables.map(Some), choice, &starts(closure, choice, balls))
+}
+
+/// As [`solutions_by_eliminant`], of the loop without the rotations that were added to it.
+pub(super) fn own_solutions_by_eliminant(closure: &ChainClosure, choice: &Choice, balls: &[Ball]) -> Result<usize, Fault> {
+    let Some(own) = closure.own_links.as_ref().filter(|_| closure.spherical.is_empty()) else {
+        return refused("proof: own-eliminant: only loops of rotations and translations with rational constants have one");
+    };
+    let links = std::array::from_fn(|k| own.get(k).cloned().unwrap_or_else(Motion::identity));
+    let kinds = std::array::from_fn(|k| Some(closure.variables[k]).filter(|_| k < closure.own));
+    solutions_of_loop(&links, &kinds, choice, &starts(closure, choice, balls))
+}
+
+/// Returns starts for the search of the roots: the hidden unknown at the modes.
+fn starts(closure: &ChainClosure, choice: &Choice, balls: &[Ball]) -> Vec<Complex<f64>> {
     let unknown = (choice.first + choice.hidden) % 6;
     let is_angle = closure.variables[unknown] == Variable::Rotation;
-    let starts: Vec<Complex<f64>> =
-        balls.iter().filter_map(|ball| start(ball.centre.get(unknown)?, is_angle, &choice.shift)).collect();
-    solutions_of_loop(links, &closure.variables, choice, &starts)
+    balls.iter().filter_map(|ball| start(ball.centre.get(unknown)?, is_angle, &choice.shift)).collect()
 }
 
 /// Returns the number of solutions that the eliminant of a choice allows to a loop with these links behind its unknowns.
 /// The search for its roots begins at the starts.
 fn solutions_of_loop(
     links: &[Motion<Rational>; 6],
-    variables: &[Variable; 6],
+    kinds: &Kinds,
     choice: &Choice,
     starts: &[Complex<f64>],
 ) -> Result<usize, Fault> {
     let no = |why: &str| refused(format!("proof: eliminant: {why}"));
-    let (rows, minor, is_angle) = prepared(links, variables, choice)?;
+    let (rows, minor, is_angle) = prepared(links, kinds, choice)?;
     if is_angle && minor.degree() != Some(DEGREE) {
         return no("an angle of pi is a root");
     }
@@ -94,7 +107,7 @@ fn solutions_of_loop(
 /// Returns the matrix of a choice, a nonzero minor of it, and whether the hidden unknown is an angle.
 fn prepared(
     links: &[Motion<Rational>; 6],
-    variables: &[Variable; 6],
+    kinds: &Kinds,
     choice: &Choice,
 ) -> Result<(Rows<Rational>, Univariate<Rational>, bool), Fault> {
     let no = |why: &str| refused(format!("proof: eliminant: {why}"));
@@ -105,12 +118,12 @@ fn prepared(
         return no("the numbers are too long");
     }
     let around = |k: usize| (choice.first + k) % 6;
-    let turns: [bool; 6] = std::array::from_fn(|k| variables[around(k)] == Variable::Rotation);
+    let kinds: Kinds = std::array::from_fn(|k| kinds[around(k)]);
     let mut links: [Motion<Rational>; 6] = std::array::from_fn(|k| links[around(k)].clone());
-    if !turns[3] {
-        return no("the fourth unknown is no rotation");
+    if kinds[3] == Some(Variable::Translation) || kinds[..3].contains(&None) {
+        return no("the fourth unknown is no rotation, or one of the first three is held");
     }
-    let is_angle = turns[choice.hidden];
+    let is_angle = kinds[choice.hidden] == Some(Variable::Rotation);
     if is_angle {
         // The angle is counted from another origin, so that it is pi at no solution.
         let square = Rational::from(choice.shift.square_ref());
@@ -118,7 +131,7 @@ fn prepared(
         let (cos, sin) = ((Rational::from(1) - square) / &below, Rational::from(&choice.shift * 2) / below);
         links[choice.hidden] = Motion::rotation_z(cos, sin).then_after(&links[choice.hidden]);
     }
-    let Some(rows) = matrix(&links, &turns, choice.hidden) else {
+    let Some(rows) = matrix(&links, &kinds, choice.hidden) else {
         return no("the other unknowns do not follow from three of them");
     };
     let minor = minor(&rows)?;
@@ -133,7 +146,7 @@ pub(super) fn minor_of(
     hidden: usize,
 ) -> Result<Univariate<Rational>, Fault> {
     let choice = Choice { first, hidden, shift: Rational::new() };
-    prepared(links, variables, &choice).map(|(_, minor, _)| minor)
+    prepared(links, &variables.map(Some), &choice).map(|(_, minor, _)| minor)
 }
 
 fn bits(x: &Rational) -> u32 {

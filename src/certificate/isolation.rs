@@ -53,16 +53,6 @@ pub enum Closed {
     Platform(Box<PlatformClosure>),
 }
 
-impl Closed {
-    /// Returns whether no angles represent a rotation in two ways.
-    pub(super) fn is_without_spherical_joints(&self) -> bool {
-        match self {
-            Self::Chain(closure) => closure.spherical.is_empty(),
-            Self::Platform(_) => true,
-        }
-    }
-}
-
 fn all<const N: usize>(closure: &impl Closure<N>, balls: &[Ball]) -> Result<(), Fault> {
     for (index, ball) in balls.iter().enumerate() {
         let at = index + 1;

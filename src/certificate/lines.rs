@@ -7,6 +7,7 @@
 
 use crate::algebra::echelon::Echelon;
 use crate::algebra::ring::{Field, Ring};
+use crate::kinematics::joint::Variable;
 use crate::kinematics::motion::{Motion, cross, dot};
 use rug::Rational;
 
@@ -20,6 +21,8 @@ pub(super) const COLUMNS: usize = 12;
 type Line<R> = [R; ENTRIES];
 /// A polynomial of degree 2 in the hidden unknown, its constant coefficient first.
 pub(super) type Square<R> = [R; 3];
+/// The kind of every unknown; `None` for one that is held at 0.
+pub(super) type Kinds = [Option<Variable>; 6];
 /// Rows of the matrix, for [`COLUMNS`] columns.
 pub(super) type Rows<R> = Vec<Vec<Square<R>>>;
 
@@ -54,10 +57,11 @@ fn moved<R: Ring>(motion: &Motion<R>, line: &Line<R>) -> Line<R> {
 }
 
 /// Returns the images of a line under an unknown: the coefficients of 1, cosine and sine of an angle, or of 1, x and x^2 of a
-/// distance x.
-fn split<R: Ring>(line: &Line<R>, is_turn: bool) -> [Line<R>; 3] {
+/// distance x. One that is held at 0 has the first alone.
+fn split<R: Ring>(line: &Line<R>, kind: Option<Variable>) -> [Line<R>; 3] {
+    let Some(kind) = kind else { return [line.clone(), [(); ENTRIES].map(|()| R::zero()), [(); ENTRIES].map(|()| R::zero())] };
     let with = |f: &dyn Fn(usize) -> R| -> Line<R> { std::array::from_fn(f) };
-    if is_turn {
+    if kind == Variable::Rotation {
         let at = |c: i32, s: i32| moved(&Motion::rotation_z(R::from_integer(c), R::from_integer(s)), line);
         let (still, cos, sin) = (at(0, 0), at(1, 0), at(0, 1));
         return [with(&|k| still[k].clone()), with(&|k| cos[k].sub(&still[k])), with(&|k| sin[k].sub(&still[k]))];
@@ -73,21 +77,22 @@ fn split<R: Ring>(line: &Line<R>, is_turn: bool) -> [Line<R>; 3] {
 
 /// Returns the combinations of the fourteen equations that are free of the last two unknowns, by their coefficients of the products
 /// of the first three; `None` if those two do not follow from the others.
-fn equations<R: Field>(links: &[Motion<R>; 6], turns: &[bool; 6]) -> Option<Vec<Vec<R>>> {
+fn equations<R: Field>(links: &[Motion<R>; 6], kinds: &Kinds) -> Option<Vec<Vec<R>>> {
     let mut left = vec![z_axis::<R>()];
     for k in (0..3).rev() {
         // The first unknown counts most: 9 i + 3 j + k.
-        let split_up: Vec<[Line<R>; 3]> = left.iter().map(|line| split(&moved(&links[k], line), turns[k])).collect();
+        let split_up: Vec<[Line<R>; 3]> = left.iter().map(|line| split(&moved(&links[k], line), kinds[k])).collect();
         left = (0..3).flat_map(|e| split_up.iter().map(move |parts| parts[e].clone())).collect();
     }
     let mut right = vec![moved(&links[3].inverse(), &z_axis::<R>())];
     for k in [4, 5] {
         let back = links[k].inverse();
-        right = right.iter().flat_map(|line| split(line, turns[k])).map(|line| moved(&back, &line)).collect();
+        right = right.iter().flat_map(|line| split(line, kinds[k])).map(|line| moved(&back, &line)).collect();
     }
     // Of the last two unknowns the product (i, j) stands at 3 i + j, and (0, 0) is known.
     let terms: Vec<usize> = (1..right.len()).filter(|k| right[*k].iter().any(|x| !x.is_zero())).collect();
-    let own = [Some(3), turns[4].then_some(6), Some(1), turns[5].then_some(2)];
+    let turns = |k: usize| kinds[k] == Some(Variable::Rotation);
+    let own = [kinds[4].map(|_| 3), turns(4).then_some(6), kinds[5].map(|_| 1), turns(5).then_some(2)];
     let table = terms.iter().map(|k| right[*k][1..].to_vec()).collect();
     let table = Echelon::of(table, ENTRIES - 1);
     if table.rank() != terms.len() || !own.iter().flatten().all(|k| terms.contains(k)) {
@@ -114,14 +119,14 @@ fn part(is_turn: bool, exponent: usize) -> [i32; 3] {
 
 /// Returns the equations times `1 + t^2` of every rotation, once and times the first other unknown u, as rows for the columns `u^i v^j`;
 /// `None` if the last two unknowns do not follow from the others.
-pub(super) fn matrix<R: Field>(links: &[Motion<R>; 6], turns: &[bool; 6], hidden: usize) -> Option<Rows<R>> {
+pub(super) fn matrix<R: Field>(links: &[Motion<R>; 6], kinds: &Kinds, hidden: usize) -> Option<Rows<R>> {
     let mut rows = Rows::new();
     let others: Vec<usize> = (0..3).filter(|k| *k != hidden).collect();
-    for equation in equations(links, turns)? {
+    for equation in equations(links, kinds)? {
         let mut row = vec![[(); 3].map(|()| R::zero()); COLUMNS];
         for (at, value) in (0..PRODUCTS).zip(&equation) {
             let exponents = [at / 9, at / 3 % 3, at % 3];
-            let of = |k: usize| part(turns[k], exponents[k]);
+            let of = |k: usize| part(kinds[k] == Some(Variable::Rotation), exponents[k]);
             let (own, u, v) = (of(hidden), of(others[0]), of(others[1]));
             for i in 0..3 {
                 for j in 0..3 {
@@ -173,7 +178,7 @@ mod tests {
         motion.translation = [of(7), of(8), of(9)];
         assert_eq!(moved(&motion, &line(&p, &l)), line(&motion.apply(&p), &motion.rotate(&l)));
         let x = Rational::from((3, 7));
-        let parts = split(&line(&p, &l), false);
+        let parts = split(&line(&p, &l), Some(Variable::Translation));
         let sum = |k: usize| (Rational::from(&parts[2][k] * &x) + &parts[1][k]) * &x + &parts[0][k];
         assert_eq!(std::array::from_fn(sum), moved(&Motion::translation_z(x.clone()), &line(&p, &l)));
     }

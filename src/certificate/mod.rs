@@ -3,6 +3,7 @@
 //! A certificate holds the data of one case as a mechanism file, the verdict claimed for it, balls around its solutions, and
 //! the proof that there are no others. The checker derives the closure equations from the data and checks each item anew.
 
+mod algebraic;
 mod all_roots;
 mod bound;
 mod chain;
@@ -22,11 +23,13 @@ mod platform;
 mod points;
 mod polynomial;
 mod real_zeros;
+mod reconstructed;
 mod record;
 mod refine;
 mod strict;
 
-pub use bound::{proof_of, proof_of_real_list};
+pub use bound::{proof_of, proof_of_own, proof_of_real_list};
+pub use reconstructed::proof_of_points;
 pub use chain::ChainClosure;
 pub use check::{Holds, check, check_all, closed};
 pub use data::{data_of, data_of_loop};

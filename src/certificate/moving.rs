@@ -1,19 +1,21 @@
 //! Decides whether a closed loop moves: theorems 5 to 7 of docs/certificate.md.
 
-use super::bound::choices;
-use super::chain::ChainClosure;
+use super::algebraic::Points;
+use super::bound::{choices, of_chains};
+use super::chain::{ChainClosure, six};
 use super::check::closed;
 use super::data::{data_of_loop, entry_of};
 use super::eliminant::{Choice, is_long, solutions_by_eliminant};
 use super::fault::{Fault, refused, shortened, unreadable};
 use super::isolation::{Closed, proved_modes};
 use super::mode::{Ball, Unproved};
-use super::record::{Claim, decimal, fields, list, text};
+use super::reconstructed;
+use super::record::{Claim, count, fields};
 use super::refine::{Near, balls};
-use crate::algebra::echelon::Echelon;
-use crate::algebra::enclosure::Enclosure;
+use crate::algebra::conjugates::fewest_conjugates;
 use crate::algebra::number::{Angle, HalfTangent};
-use crate::algebra::ring::Ring;
+use crate::algebra::number_field::Algebraic;
+use crate::algebra::ring::{Field, Ring, exact_cos_sin};
 use crate::algebra::series::Series;
 use crate::catalogue::Chains;
 use crate::catalogue::entry::{Design, Entry};
@@ -23,20 +25,17 @@ use num_complex::Complex;
 use rug::Rational;
 use serde_json::{Map, Value, json};
 
-/// Upper bound on the multiplicity of an isolated configuration.
+/// Upper bound on the multiplicity of an isolated configuration and its conjugates together.
 const MOST: usize = 16;
-type Along = Series<Rational, { MOST + 1 }>;
 
 /// An unknown nearer to a simple number than this is tried there; the proof does not rest on it.
 const NEAR: f64 = 1e-11;
+/// Solutions nearer than this are the same but for rounding.
+const SAME: f64 = 1e-6;
 /// The largest numerator and denominator of a simple number; its square is far from the digits of f64.
 const LONGEST_PLACE: f64 = 1e5;
 /// Denominator of the half-angle tangent of a held joint.
 const HELD_PARTS: f64 = 1e4;
-
-/// A loop with rational links: the kind of each unknown, the link behind it, and the part of the last link that stands in front of the
-/// first unknown.
-type Loop = (Vec<Variable>, Vec<Motion<Rational>>, Motion<Rational>);
 
 /// Returns the dimension of the motion that a certificate proves.
 pub(super) fn mobility(
@@ -54,24 +53,15 @@ pub(super) fn mobility(
         return refused("modes: none are asked for here");
     }
     let found = match kind {
-        "eliminant" => {
-            let [_, aid] = fields(item, ["kind", "aid"], &[])?;
-            let longer = longer_loop(&rational_loop(entry)?)?;
-            finitely_many(&longer, &Choice::read(aid)?)?;
+        "eliminant" | "general-bound" => {
             if modes.iter().any(|mode| mode.multiplicity != 1) {
                 return refused("modes: simple solutions of the longer loop are asked for");
             }
-            let balls: Vec<Ball> = modes.into_iter().map(|mode| mode.ball).collect();
-            if balls.is_empty() {
-                return refused("modes: a solution of the longer loop is asked for");
-            }
-            proved_modes(&Closed::Chain(Box::new(longer)), &balls)?;
+            does_not_move(entry, item, modes.into_iter().map(|mode| mode.ball).collect())?;
             0
         }
         "curve" => {
-            let [_, point] = fields(item, ["kind", "point"], &[])?;
-            let point: Vec<Place> = list(point)?.iter().map(place).collect::<Result<_, _>>()?;
-            follows_a_curve(&rational_loop(entry)?, &point)?;
+            follows_a_curve(entry, item)?;
             1
         }
         "regular" => {
@@ -89,171 +79,137 @@ pub(super) fn mobility(
     Ok(found)
 }
 
-/// Returns the loop of a file, without any input.
-fn rational_loop(entry: &Entry) -> Result<Loop, Fault> {
-    let no = || refused("proof: only loops of at most 6 unknowns with rational constants and without spherical joints are covered");
-    let Design::Loop(chain) = &entry.design else { return no() };
-    let kinds = chain.joint_kinds();
-    let is_plain = !kinds.iter().any(|kind| matches!(kind.letter(), "S" | "H"));
-    let Some((variables, mut motions)) = chain.unknowns_and_constants::<Rational>() else { return no() };
-    if entry.rounded || !is_plain || variables.is_empty() || variables.len() > 6 {
-        return no();
-    }
-    let before = motions.remove(0);
-    let last = motions.len() - 1;
-    motions[last] = motions[last].then_after(&before);
-    Ok((variables, motions, before))
+/// Returns the loop of a file without any input, up to six unknowns.
+fn longer_loop(entry: &Entry) -> Result<ChainClosure, Fault> {
+    let Design::Loop(chain) = &entry.design else { return refused("data: whether it moves is proved of a loop") };
+    ChainClosure::of(chain, None, !entry.rounded)
 }
 
-/// Returns a loop with rotations about other axes added behind its last link, up to six unknowns.
-fn longer_loop((variables, links, before): &Loop) -> Result<ChainClosure, Fault> {
-    let (mut variables, mut links) = (variables.clone(), links.clone());
-    for k in 0..u32::try_from(6 - links.len()).unwrap_or(0) {
-        let about = |t: Rational| {
-            let square = Rational::from(t.square_ref());
-            let below = Rational::from(&square + 1);
-            ((Rational::from(1) - square) / &below, t * 2_u32 / below)
-        };
-        let (cos, sin) = about(Rational::from((2 + k, 7)));
-        let mut frame = Motion::rotation_x(cos, sin);
-        frame.translation = [Rational::from((k + 1, 3)), Rational::from((1, k + 2)), Rational::new()];
-        let (cos, sin) = about(Rational::from((3, 5 + 2 * k)));
-        let mut about_y = Motion::identity();
-        about_y.rotation[0] = [cos.clone(), Rational::new(), sin.clone()];
-        about_y.rotation[2] = [-sin, Rational::new(), cos];
-        // What is in front of the first unknown stays behind the added rotations: their axes are given in the frame of the ground.
-        let frame = before.inverse().then_after(&frame).then_after(&about_y);
-        let last = links.len() - 1;
-        links[last] = links[last].then_after(&frame);
-        links.push(frame.inverse());
-        variables.push(Variable::Rotation);
-    }
-    let (Ok(links), Ok(variables)) = (<[_; 6]>::try_from(links), <[_; 6]>::try_from(variables)) else {
-        return refused("proof: eliminant: more than six unknowns");
-    };
-    let known = |link: &Motion<Rational>| link.map(|x| Some(Enclosure::of(x))).unwrap_or_else(Motion::identity);
-    Ok(ChainClosure { variables, links: links.each_ref().map(known), exact: Some(links), given: None, spherical: Vec::new() })
-}
-
-/// Checks theorem 5: the longer loop has finitely many solutions.
-fn finitely_many(longer: &ChainClosure, choice: &Choice) -> Result<(), Fault> {
-    solutions_by_eliminant(longer, choice, &[]).map(drop)
-}
-
-/// The value of an unknown at a configuration: a half-angle tangent (none for pi), or a distance.
-type Place = Option<Rational>;
-
-fn place(value: &Value) -> Result<Place, Fault> {
-    let written = text(value)?;
-    if written == "inf" {
-        return Ok(None);
-    }
-    let number = |text: &str| decimal(&Value::from(text));
-    let value = match written.split_once('/') {
-        Some((above, below)) => {
-            let below = number(below)?;
-            if below == 0 {
-                return unreadable("found a division by zero");
-            }
-            number(above)? / below
+/// Checks theorem 5: the solutions of the longer loop are finitely many.
+fn does_not_move(entry: &Entry, item: &Value, balls: Vec<Ball>) -> Result<(), Fault> {
+    let longer = longer_loop(entry)?;
+    let least = if item.get("kind").and_then(Value::as_str) == Some("general-bound") {
+        let [_, stated] = fields(item, ["kind", "value"], &[])?;
+        let known = of_chains(&longer);
+        if known != Some(count(stated)?) {
+            return refused("proof: general-bound: the value is not that of loops of this kind");
         }
-        None => number(written)?,
+        known
+    } else {
+        let [_, aid] = fields(item, ["kind", "aid"], &[])?;
+        solutions_by_eliminant(&longer, &Choice::read(aid)?, &[])?;
+        None
     };
-    Ok(Some(value))
-}
-
-/// Returns the motion of an unknown held at a place.
-fn standing(variable: Variable, place: &Place) -> Motion<Rational> {
-    match (variable, place) {
-        (Variable::Translation, place) => Motion::translation_z(place.clone().unwrap_or_default()),
-        (Variable::Rotation, None) => Motion::rotation_z(Rational::from(-1), Rational::new()),
-        (Variable::Rotation, Some(t)) => {
-            let square = Rational::from(t.square_ref());
-            let below = Rational::from(&square + 1);
-            Motion::rotation_z((Rational::from(1) - square) / &below, Rational::from(t * 2_u32) / below)
-        }
-    }
-}
-
-/// Checks theorem 6: the closure equations hold to order 16 along the only first-order motion.
-fn follows_a_curve((variables, links, _): &Loop, point: &[Place]) -> Result<(), Fault> {
-    let size = variables.len();
-    let misplaced = |(variable, place): (&Variable, &Place)| *variable == Variable::Translation && place.is_none();
-    if point.len() != size || variables.iter().zip(point).any(misplaced) {
-        return unreadable("proof: curve: the point has other numbers than the loop has unknowns");
-    }
-    let links: Vec<Motion<Rational>> =
-        (0..size).map(|k| standing(variables[k], &point[k]).then_after(&links[k])).collect();
-    if links.iter().any(is_long) {
-        return refused("proof: curve: the numbers are too long");
-    }
-    let product = links.iter().fold(Motion::identity(), |product, link| product.then_after(link));
-    if product != Motion::identity() {
-        return refused("proof: curve: the loop is not closed there");
-    }
-    let mut small = Along::zero();
-    small.coefficients[1] = Rational::from(1);
-    let only = |free: usize| -> Vec<Along> {
-        (0..size).map(|k| if k == free { small.clone() } else { Along::zero() }).collect()
-    };
-    let broken = || Fault::Unreadable("proof: curve: found numbers that are not known well enough".to_owned());
-    let screws: Vec<Vec<Rational>> = (0..size)
-        .map(|k| Some(equations(variables, &links, &only(k))?.map(|f| f.coefficients[1].clone()).to_vec()))
-        .collect::<Option<_>>()
-        .ok_or_else(broken)?;
-    let reduced = Echelon::of(screws.clone(), 6);
-    if reduced.rank() != size - 1 {
-        let rank = reduced.rank();
-        return refused(format!("proof: curve: the joint screws have the rank {rank}, expected {}", size - 1));
-    }
-    // The equations at the pivots are independent; all unknowns but one follow from them.
-    let rows = reduced.pivots();
-    let independent = reduced.independent_rows();
-    let free = (0..size).find(|k| !independent.contains(k)).unwrap_or(0);
-    let others: Vec<usize> = (0..size).filter(|k| *k != free).collect();
-    // [A | 1] to [1 | A^-1] for the derivatives A of the equations by the others.
-    let augmented = rows.iter().enumerate().map(|(at, row)| {
-        let unit = (0..rows.len()).map(|k| Rational::from(u32::from(k == at)));
-        others.iter().map(|k| screws[*k][*row].clone()).chain(unit).collect::<Vec<_>>()
-    });
-    let inverted = Echelon::among(augmented.collect(), 2 * others.len(), others.len());
-    let mut step = vec![Vec::new(); others.len()];
-    for (pivot, row) in inverted.pivots().iter().zip(inverted.rows()) {
-        step[*pivot] = row[others.len()..].to_vec();
-    }
-    let mut along = only(free);
-    for _ in 0..MOST {
-        let values = equations(variables, &links, &along).ok_or_else(broken)?;
-        for (own, k) in step.iter().zip(&others) {
-            for (factor, row) in own.iter().zip(rows) {
-                along[*k] = along[*k].sub(&values[*row].mul(&Along::constant(factor.clone())));
-            }
-        }
-    }
-    let values = equations(variables, &links, &along).ok_or_else(broken)?;
-    if values.iter().any(|value| !value.is_zero()) {
-        return refused("proof: curve: the loop opens along the motion");
+    proved_modes(&Closed::Chain(Box::new(longer)), &balls)?;
+    if balls.is_empty() || least.is_some_and(|least| balls.len() != least) {
+        return refused(format!("modes: {} solutions of the longer loop are proved, more or others are asked for", balls.len()));
     }
     Ok(())
 }
 
+/// Checks theorem 6: the closure equations hold to the order that decides along the only first-order motion.
+fn follows_a_curve(entry: &Entry, item: &Value) -> Result<(), Fault> {
+    let closure = longer_loop(entry)?;
+    let Some(links) = closure.own_links.as_ref().filter(|links| closure.spherical.is_empty() && !links.iter().any(is_long)) else {
+        return refused("proof: curve: only loops with rational constants and without spherical joints are covered");
+    };
+    let variables = &closure.variables[..closure.own];
+    let points = Points::read(item, variables)?;
+    if points.polynomial.real_roots().is_empty() {
+        return refused("proof: curve: none of the points is real");
+    }
+    let Some(links) = points.standing(links) else { return refused("proof: curve: the loop is not closed there") };
+    // An isolated configuration and its conjugates have the multiplicity 16 together at most.
+    match MOST / fewest_conjugates(&points.polynomial) {
+        0 | 1 => follows::<2>(variables, &links),
+        2 => follows::<3>(variables, &links),
+        3 | 4 => follows::<5>(variables, &links),
+        5..=8 => follows::<9>(variables, &links),
+        _ => follows::<{ MOST + 1 }>(variables, &links),
+    }
+}
+
+/// Checks that the loop stays closed to the order N - 1 along its only first-order motion.
+fn follows<const N: usize>(variables: &[Variable], links: &[Motion<Algebraic>]) -> Result<(), Fault> {
+    let size = variables.len();
+    let mut small = Series::<Algebraic, N>::zero();
+    small.coefficients[1] = Algebraic::one();
+    let only = |free: usize| -> Vec<Series<Algebraic, N>> {
+        (0..size).map(|k| if k == free { small.clone() } else { Series::zero() }).collect()
+    };
+    let broken = || Fault::Unreadable("proof: curve: found numbers that are not known well enough".to_owned());
+    let screws: Vec<Vec<Algebraic>> = (0..size)
+        .map(|k| Some(equations(variables, links, &only(k))?.map(|f| f.coefficients[1].clone()).to_vec()))
+        .collect::<Option<_>>()
+        .ok_or_else(broken)?;
+    // The derivative of the equations, and beside it the combination that every row is.
+    let rows = (0..6).map(|i| {
+        let unit = (0..6).map(|k| Algebraic::from_integer(i32::from(k == i)));
+        screws.iter().map(|screw| screw[i].clone()).chain(unit).collect()
+    });
+    let (pivots, rows) = reduced(rows.collect(), size)?;
+    let rank = pivots.iter().flatten().count();
+    if rank + 1 != size {
+        return refused(format!("proof: curve: the joint screws have the rank {rank}, expected {}", size - 1));
+    }
+    let free = (0..size).find(|k| !pivots.contains(&Some(*k))).unwrap_or(0);
+    let mut along = only(free);
+    for order in 1..N {
+        let values = equations(variables, links, &along).ok_or_else(broken)?;
+        for (row, pivot) in rows.iter().zip(&pivots) {
+            let terms = row[size..].iter().zip(&values).map(|(x, f)| x.mul(&f.coefficients[order]));
+            let value = terms.fold(Algebraic::zero(), |sum, term| sum.add(&term));
+            match pivot {
+                Some(k) => along[*k].coefficients[order] = value.neg(),
+                None if value.is_zero() => {}
+                None => return refused("proof: curve: the loop opens along the motion"),
+            }
+        }
+    }
+    Ok(())
+}
 /// Returns the six series that vanish if the loop is closed.
-fn equations(variables: &[Variable], links: &[Motion<Rational>], at: &[Along]) -> Option<[Along; 6]> {
-    let mut product = Motion::<Along>::identity();
+fn equations<const N: usize>(
+    variables: &[Variable],
+    links: &[Motion<Algebraic>],
+    at: &[Series<Algebraic, N>],
+) -> Option<[Series<Algebraic, N>; 6]> {
+    let mut product = Motion::<Series<Algebraic, N>>::identity();
     for ((variable, link), x) in variables.iter().zip(links).zip(at) {
         let moved = match variable {
             Variable::Rotation => {
-                let (cos, sin) = x.cos_sin_beyond(Rational::from(1), Rational::new())?;
+                let (cos, sin) = x.cos_sin_beyond(Algebraic::one(), Algebraic::zero())?;
                 Motion::rotation_z(cos, sin)
             }
             Variable::Translation => Motion::translation_z(x.clone()),
         };
-        product = product.then_after(&moved).then_after(&link.map(|x| Some(Along::constant(x.clone())))?);
+        product = product.then_after(&moved).then_after(&link.map(|x| Some(Series::constant(x.clone())))?);
     }
-    let [x, y, z] = product.translation;
-    let r = product.rotation;
-    let skew = |i: usize, j: usize| r[i][j].sub(&r[j][i]);
-    Some([skew(2, 1), skew(0, 2), skew(1, 0), x, y, z])
+    Some(six(&product.rotation, &product.translation))
+}
+
+/// The pivot of every row, and the rows after Gauss's algorithm.
+type Reduced = (Vec<Option<usize>>, Vec<Vec<Algebraic>>);
+
+/// Reduces rows by pivots in the first columns, which are 0 at none of the conjugate points.
+fn reduced(mut rows: Vec<Vec<Algebraic>>, columns: usize) -> Result<Reduced, Fault> {
+    let mut pivots = vec![None; rows.len()];
+    for column in 0..columns {
+        let Some(at) = (0..rows.len()).find(|i| pivots[*i].is_none() && !rows[*i][column].is_zero()) else { continue };
+        let Some(inverse) = rows[at][column].inverse() else {
+            return refused("proof: a number is 0 at some of the conjugate points, and not at others");
+        };
+        pivots[at] = Some(column);
+        let pivot: Vec<Algebraic> = rows[at].iter().map(|x| x.mul(&inverse)).collect();
+        for row in &mut rows {
+            let factor = row[column].clone();
+            for (x, p) in row.iter_mut().zip(&pivot) {
+                *x = x.sub(&factor.mul(p));
+            }
+        }
+        rows[at] = pivot;
+    }
+    Ok((pivots, rows))
 }
 
 /// Checks theorem 7: with one unknown of seven held, a real solution is simple.
@@ -267,39 +223,105 @@ fn is_regular(data: &Map<String, Value>, held: &Value, modes: Vec<Unproved>) -> 
     if mode.multiplicity != 1 || !mode.ball.real {
         return refused("mode 1: a simple real configuration is asked for");
     }
-    if !closed.is_without_spherical_joints() {
-        return refused("proof: regular: only loops without spherical joints are covered");
+    if !matches!(&closed, Closed::Chain(closure) if closure.spherical.is_empty() && closure.own == 6) {
+        return refused("proof: regular: only loops of seven unknowns without spherical joints are covered");
     }
     proved_modes(&closed, &[mode.ball])
 }
 
 /// Returns a proof that a loop moves in one dimension, from real configurations of it, with the balls that the proof needs; `None` if
-/// theorems 6 and 7 give none.
+/// theorems 6 and 7 give none. `solve` finds solutions of a loop of six unknowns.
 #[must_use]
-pub fn proof_of_motion(entry: &Entry, configurations: &[Vec<f64>]) -> Option<(Value, Vec<Ball>)> {
-    let through = |q: &Vec<f64>| {
-        let links = rational_loop(entry).ok()?;
-        let point: Vec<Place> = links.0.iter().zip(q).map(|(v, x)| near_place(*v, *x)).collect::<Option<_>>()?;
-        follows_a_curve(&links, &point).ok()?;
-        let text = |place: &Place| place.as_ref().map_or_else(|| "inf".to_owned(), Rational::to_string);
-        Some((json!({ "kind": "curve", "point": point.iter().map(text).collect::<Vec<_>>() }), Vec::new()))
+pub fn proof_of_motion(
+    entry: &Entry,
+    configurations: &[Vec<f64>],
+    solve: &dyn Fn(&ChainClosure) -> Vec<Near>,
+) -> Option<(Value, Vec<Ball>)> {
+    let Design::Loop(chain) = &entry.design else { return None };
+    let count = JointVariable::of(&chain.joint_kinds()).len();
+    let one = |q: &Vec<f64>| {
+        if q.len() != count {
+            return None;
+        }
+        if count == 7 {
+            return held_regular(entry, q);
+        }
+        (0..count).find_map(|k| curve_through(entry, q, k, solve)).map(|item| (item, Vec::new()))
     };
-    configurations.iter().find_map(through).or_else(|| configurations.iter().find_map(|q| held_regular(entry, q)))
+    configurations.iter().find_map(one)
 }
 
-/// Returns a proof that a loop does not move, with a ball around a solution of the longer loop; `None` if theorem 5 gives none.
+/// Returns the item of theorem 6 for a configuration at which the unknown k has a simple value.
+fn curve_through(entry: &Entry, q: &[f64], k: usize, solve: &dyn Fn(&ChainClosure) -> Vec<Near>) -> Option<Value> {
+    let Design::Loop(chain) = &entry.design else { return None };
+    let named = JointVariable::of(&chain.joint_kinds());
+    let place = near_place(named[k].variable, q[k])?;
+    let Ok(Value::Object(mut data)) = data_of_loop(entry) else { return None };
+    let (input, coordinates) = held_at(&named[k], &place)?;
+    data.insert("input".to_owned(), json!([input]));
+    let held = entry_of(&data, Chains::Solved).ok()?;
+    let Closed::Chain(closure) = closed(&held, held.cases.first()?).ok()? else { return None };
+    let others: Vec<f64> = q.iter().enumerate().filter(|(at, _)| *at != k).map(|(_, x)| *x).collect();
+    let is_same = |(at, (x, y)): (usize, (&Complex<f64>, &f64))| {
+        let off = x - y;
+        let off = if closure.variables[at] == Variable::Rotation { (0.5 * off).sin() } else { off };
+        off.norm() < SAME
+    };
+    let is_own = |x: &[Complex<f64>]| x[closure.own..].iter().all(|x| (0.5 * x).sin().norm() < SAME);
+    let near: Vec<Near> = solve(&closure).into_iter().filter(|(x, _)| is_own(x)).collect();
+    let at = near.iter().position(|(x, real)| *real && x.iter().zip(&others).enumerate().all(is_same))?;
+    let points = near.iter().map(|(x, _)| reconstructed::coordinates(&closure, x)).collect::<Option<Vec<_>>>()?;
+    let mut points = reconstructed::conjugate(&points, at)?;
+    for point in &mut points {
+        point.insert(k, coordinates.clone());
+    }
+    let mut item = reconstructed::item(&points)?;
+    item["kind"] = json!("curve");
+    follows_a_curve(entry, &item).ok()?;
+    Some(item)
+}
+
+/// Returns the input that holds a joint variable at a simple value, and its cosine and sine or its distance.
+fn held_at(named: &JointVariable, place: &Place) -> Option<(Value, Vec<reconstructed::Far>)> {
+    if named.turn != 0 {
+        return None;
+    }
+    if named.variable == Variable::Translation {
+        let distance = place.clone()?;
+        let input = json!({ "joint": named.joint, "distance": distance.to_string() });
+        return Some((input, reconstructed::held(named.variable, [&distance, &distance])?));
+    }
+    let angle = Angle::from_half_tangent(place.clone().map_or(HalfTangent::Infinite, HalfTangent::Finite));
+    let (cos, sin) = exact_cos_sin(&angle);
+    let input = json!({ "joint": named.joint, "angle": angle.text()? });
+    Some((input, reconstructed::held(named.variable, [&cos, &sin])?))
+}
+
+/// Returns a proof that a loop does not move, with balls around solutions of the longer loop; `None` if theorem 5 gives none.
 /// `solve` finds solutions of that loop.
 #[must_use]
 pub fn proof_of_rest(entry: &Entry, solve: &dyn Fn(&ChainClosure) -> Vec<Near>) -> Option<(Value, Vec<Ball>)> {
     // The frames of axes are those of the data as a certificate has them.
     let Ok(Value::Object(data)) = data_of_loop(entry) else { return None };
-    let longer = longer_loop(&rational_loop(&entry_of(&data, Chains::Any).ok()?).ok()?).ok()?;
-    let choice = choices().find(|choice| finitely_many(&longer, choice).is_ok())?;
-    let near = solve(&longer);
+    let longer = longer_loop(&entry_of(&data, Chains::Any).ok()?).ok()?;
+    let choice = choices().find(|choice| solutions_by_eliminant(&longer, choice, &[]).is_ok());
+    let (near, known) = (solve(&longer), of_chains(&longer));
     let longer = Closed::Chain(Box::new(longer));
-    let ball = near.into_iter().find_map(|one| balls(&longer, &[one]))?;
-    Some((json!({ "kind": "eliminant", "aid": choice.json() }), ball))
+    if let Some(choice) = choice {
+        let ball = near.into_iter().find_map(|one| balls(&longer, &[one]))?;
+        return Some((json!({ "kind": "eliminant", "aid": choice.json() }), ball));
+    }
+    // Of a spherical joint every rotation is found with two triples of angles.
+    let different = near.into_iter().fold(Vec::new(), |found: Vec<Ball>, one| {
+        let more = found.iter().cloned().chain(balls(&longer, &[one]).into_iter().flatten()).collect::<Vec<_>>();
+        if proved_modes(&longer, &more).is_ok() { more } else { found }
+    });
+    let value = known.filter(|known| different.len() == *known)?;
+    Some((json!({ "kind": "general-bound", "value": value }), different))
 }
+
+/// The value of an unknown at a configuration: a half-angle tangent (none for pi), or a distance.
+type Place = Option<Rational>;
 
 /// Returns the simple value that an unknown equals to rounding; `None` if there is none.
 fn near_place(variable: Variable, x: f64) -> Option<Place> {

@@ -4,7 +4,7 @@ use super::chain::ChainClosure;
 use super::enclosing::Enclosing;
 use super::fault::{Fault, refused};
 use super::isolation::Longer;
-use super::lines::{COLUMNS, Rows, at, matrix};
+use super::lines::{COLUMNS, Kinds, Rows, at, matrix};
 use super::nearby::Nearby;
 use super::record::{count, fields};
 use crate::algebra::determinant::determinant;
@@ -62,8 +62,8 @@ pub(super) fn real_solutions(closure: &ChainClosure, choice: Choice) -> Result<u
         return no("no such unknown");
     }
     let around = |k: usize| (choice.first + k) % 6;
-    let turns: [bool; 6] = std::array::from_fn(|k| closure.variables[around(k)] == Variable::Rotation);
-    if !turns[3] || !turns[choice.hidden] {
+    let kinds: Kinds = std::array::from_fn(|k| Some(closure.variables[around(k)]));
+    if [kinds[3], kinds[choice.hidden]] != [Some(Variable::Rotation); 2] {
         return no("the hidden unknown or the fourth one is no rotation");
     }
     let links: [Motion<Longer>; 6] = std::array::from_fn(|k| {
@@ -73,7 +73,7 @@ pub(super) fn real_solutions(closure: &ChainClosure, choice: Choice) -> Result<u
             translation: link.translation.each_ref().map(Longer::from),
         }
     });
-    let Some(rows) = matrix(&links, &turns, choice.hidden) else {
+    let Some(rows) = matrix(&links, &kinds, choice.hidden) else {
         return no("the other unknowns do not follow from three of them");
     };
     let Some(minor) = minor(&rows) else { return no("the eliminant is 0, or not known well enough") };

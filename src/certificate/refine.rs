@@ -6,6 +6,7 @@ use super::isolation::{Closed, Closure, Longer, Point, holds_one, proved_modes};
 use super::mode::Ball;
 use super::nearby::Nearby;
 use crate::algebra::ring::Ring;
+use crate::kinematics::joint::Variable;
 use num_complex::Complex;
 use rug::{Float, Integer, Rational, float::Constant, ops::Pow};
 
@@ -17,6 +18,9 @@ const DECIMALS: u32 = 30;
 const RADII: [u32; 8] = [8, 9, 10, 12, 14, 16, 20, 25];
 /// Factor by which the ball of the proof may be enlarged: another checker may bound the second derivatives less tightly.
 const ROOM: u32 = 10;
+
+/// Solutions nearer than this are the same but for rounding.
+const ROUNDED: f64 = 1e-6;
 
 /// The unknowns of a solution, and whether it is real.
 pub type Near = (Vec<Complex<f64>>, bool);
@@ -108,6 +112,23 @@ fn rounded(x: &Rational, decimals: u32) -> Rational {
 }
 
 impl ChainClosure {
+    /// Whether the loop has fewer than six unknowns, and rotations were added.
+    #[must_use]
+    pub fn is_short(&self) -> bool {
+        self.own < 6
+    }
+
+    /// Whether the centre of a ball is these unknowns of the loop itself but for rounding, angles modulo 2 pi.
+    #[must_use]
+    pub fn is_around(&self, ball: &Ball, unknowns: &[Complex<f64>]) -> bool {
+        unknowns.len() == self.own
+            && unknowns.iter().zip(&ball.centre).enumerate().all(|(k, (x, (re, im)))| {
+                let off = x - Complex::new(re.to_f64(), im.to_f64());
+                let off = if self.variables[k] == Variable::Rotation { (0.5 * off).sin() } else { off };
+                off.norm() < ROUNDED
+            })
+    }
+
     /// Returns the unknowns among all joint variables.
     #[must_use]
     pub fn unknowns(&self, q: &[Complex<f64>]) -> Vec<Complex<f64>> {

@@ -7,9 +7,9 @@
 
 use super::cut::Cut;
 use super::linkage::{JointValue, Linkage, is_unit};
+use crate::algebra::conjugates::fewest_conjugates;
 use crate::algebra::determinant;
 use crate::algebra::echelon::Echelon;
-use crate::algebra::modp::{ModP, PRIME_61, PRIME_62};
 use crate::algebra::number_field::{Algebraic, NumberField};
 use crate::algebra::real_roots::RealRoot;
 use crate::algebra::ring::{Field, Ring};
@@ -115,19 +115,7 @@ impl Conjugates {
     #[must_use]
     pub fn fewest_conjugates(&self) -> usize {
         let Some(polynomial) = self.polynomial.as_ref().filter(|_| self.ground.is_none()) else { return 1 };
-        // Rational roots stand for themselves elsewhere, or cost only the bound.
-        if polynomial.real_roots().iter_mut().any(|root| root.rational().is_some()) {
-            return 1;
-        }
-        let degree = self.count();
-        let stays_whole = degree <= 3
-            || is_irreducible::<PRIME_61>(polynomial)
-            || is_irreducible::<PRIME_62>(polynomial)
-            || is_irreducible::<1_000_000_007>(polynomial)
-            || is_irreducible::<998_244_353>(polynomial)
-            || is_irreducible::<104_729>(polynomial)
-            || is_irreducible::<7919>(polynomial);
-        if stays_whole { degree } else { 2 }
+        fewest_conjugates(polynomial)
     }
 
     /// Returns the same positions restricted to the roots of a factor of the polynomial.
@@ -338,30 +326,6 @@ impl List {
         }
         Some(())
     }
-}
-
-/// Whether a polynomial is irreducible modulo a prime, and hence over the rationals: no factor of it divides `x^(p^k) - x`
-/// for k up to half its degree.
-fn is_irreducible<const P: u64>(polynomial: &Univariate<Rational>) -> bool {
-    let Some(f) = polynomial.map(ModP::<P>::from_rational) else { return false };
-    if f.degree() != polynomial.degree() {
-        return false;
-    }
-    let mut power = Univariate::x();
-    for _ in 0..f.degree().unwrap_or(0) / 2 {
-        let base = power;
-        power = Univariate::one();
-        for bit in (0..u64::BITS - P.leading_zeros()).rev() {
-            power = power.mul(&power).div_rem(&f).1;
-            if P >> bit & 1 == 1 {
-                power = power.mul(&base).div_rem(&f).1;
-            }
-        }
-        if f.gcd(&power.sub(&Univariate::x())).degree() != Some(0) {
-            return false;
-        }
-    }
-    true
 }
 
 /// The form of one side of a vector of the kernel.

@@ -4,7 +4,7 @@ use crate::catalogue::entry::{Case, Design, Entry};
 use crate::assembly::{Assembly, Roots, Solver, Workspace};
 use crate::certificate::{
     Ball, ChainClosure, Closed, FORMAT, Fault, Near, VERSION, balls, check, closed, data_of, data_of_loop, proof_by_distance, proof_of,
-    proof_of_motion, proof_of_polynomial, proof_of_real_list, proof_of_rest,
+    proof_of_motion, proof_of_own, proof_of_points, proof_of_polynomial, proof_of_real_list, proof_of_rest,
 };
 use crate::derivation::Derivation;
 use crate::kinematics::joint::Variable;
@@ -28,15 +28,18 @@ pub fn certificate(entry: &Entry, number: usize, case: &Case, solution: &Solutio
     if !verdict.proof.is_proved() || !matches!(verdict.status, Status::Complete | Status::Unreachable) {
         return Err("the answer is not proved".to_owned());
     }
-    if solution.arm.is_some() {
-        return Err(
-            "answers to arms of other than six joints, to tasks and with joints held are not covered".to_owned()
-        );
-    }
     let data = data_of(entry, case)?;
     let closed = closed(entry, case).map_err(|fault| words(&fault))?;
+    let short = if let Closed::Chain(closure) = &closed { Some(closure).filter(|closure| closure.is_short()) } else { None };
+    if solution.arm.is_some() && short.is_none() {
+        return Err("answers to arms of more than six joints, to tasks and with joints held are not covered".to_owned());
+    }
     let info =
         json!({ "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": entry.name, "title": entry.title, "case": number });
+    if let Some(closure) = short {
+        let (claim, balls, proof) = of_short_loop(closure, &closed, solution)?;
+        return accepted(&info, &data, &claim, &balls, &proof);
+    }
     let (claim, balls, proof) = counted(&closed, solution).or_else(|reason| {
         let distance = if verdict.status == Status::Unreachable { proof_by_distance(&closed) } else { None };
         let claim = json!({ "verb": "solve", "status": "unreachable", "proof": "proved", "real": 0 });
@@ -61,14 +64,44 @@ fn counted(closed: &Closed, solution: &Solution) -> Result<(Value, Vec<Ball>, Va
     let proof = proof_of(closed, &balls)
         .ok_or("no bound of docs/certificate.md is met: the code is ".to_owned() + verdict.code.word())?;
     let (complex, real) = (balls.len(), balls.iter().filter(|ball| ball.real).count());
-    let claim = json!({
+    Ok((solved(complex, real), balls, proof))
+}
+
+/// Returns the claim of an answer to a loop of fewer than six unknowns, balls around all solutions of the longer loop, and the proof.
+fn of_short_loop(
+    closure: &ChainClosure,
+    closed: &Closed,
+    solution: &Solution,
+) -> Result<(Value, Vec<Ball>, Vec<Value>), String> {
+    let near = found(closure);
+    let all = balls(closed, &near).ok_or("a solution of the longer loop is too ill conditioned for a ball of its own")?;
+    let (own, points) = proof_of_points(closure, &near, &all)
+        .ok_or("the solutions are no points with coordinates of few digits over one polynomial")?;
+    let by_own = || Some((own.clone(), proof_of_own(closure, &own)?));
+    let (balls, bound) = by_own()
+        .or_else(|| proof_of(closed, &all).map(|bound| (all, bound)))
+        .ok_or("no bound of docs/certificate.md is met by the loop, or by the longer one")?;
+    // What is asked of an arm may be less than its pose: then other configurations are listed.
+    let modes: Vec<Vec<Complex<f64>>> =
+        solution.modes.iter().filter(|mode| !mode.near).map(|mode| closure.unknowns(&mode.q)).collect();
+    let is_listed = |ball: &Ball| modes.iter().any(|mode| closure.is_around(ball, mode));
+    let is_found = |mode: &Vec<Complex<f64>>| own.iter().any(|ball| closure.is_around(ball, mode));
+    if !own.iter().filter(|ball| ball.real).all(is_listed) || !modes.iter().all(is_found) {
+        return Err("the modes are others than the solutions of the pose".to_owned());
+    }
+    let (complex, real) = (own.len(), own.iter().filter(|ball| ball.real).count());
+    Ok((solved(complex, real), balls, std::iter::once(bound).chain(points).collect()))
+}
+
+/// Returns the claim that counts all solutions.
+fn solved(complex: usize, real: usize) -> Value {
+    json!({
         "verb": "solve",
         "status": if real == 0 { "unreachable" } else { "complete" },
         "proof": "proved",
         "complex": complex,
         "real": real,
-    });
-    Ok((claim, balls, proof))
+    })
 }
 
 /// Returns the claim of an answer about real solutions alone, a ball around each, and the item that bounds their number; `None` if
@@ -111,6 +144,9 @@ pub fn certificate_of_polynomial(
     let (mut claim, balls, proof) = counted(&closed, &solution.map_err(|error| error.to_string())?)?;
     let no = || "the polynomial is no factor of an eliminant whose other roots belong to no solution".to_owned();
     let Closed::Chain(closure) = &closed else { return Err(no()) };
+    if closure.is_short() {
+        return Err("polynomials of loops of fewer than six unknowns are not covered".to_owned());
+    }
     let unknown = closure.unknown(variable).ok_or_else(no)?;
     let coefficients = polynomial.coefficients.coefficients();
     let membership = proof_of_polynomial(closure, &balls, unknown, coefficients).ok_or_else(no)?;
@@ -145,7 +181,7 @@ pub fn certificate_of_motion(entry: &Entry, answer: &Mobility) -> Result<Value, 
     };
     let data = data_of_loop(entry)?;
     let configurations: Vec<Vec<f64>> = answer.configurations.iter().map(|own| own.q.clone()).collect();
-    let found = if dimension > 0 { proof_of_motion(entry, &configurations) } else { proof_of_rest(entry, &found) };
+    let found = if dimension > 0 { proof_of_motion(entry, &configurations, &found) } else { proof_of_rest(entry, &found) };
     let (proof, balls) = found
         .ok_or_else(|| format!("no theorem of docs/certificate.md applies: the code is {}", answer.code.word()))?;
     let info = json!({ "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": entry.name, "title": entry.title });

@@ -5,6 +5,7 @@ pub mod approximation;
 pub mod ball;
 pub mod bounded;
 pub mod circle_fraction;
+pub mod conjugates;
 pub mod determinant;
 pub mod disc;
 pub mod double_double;
