@@ -2,7 +2,7 @@
 
 What is 0 in Q[T]/P is 0 at every root of P. What has an inverse there is 0 at none of them.
 """
-from flint import fmpq, fmpq_poly
+from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_poly
 
 from closures import TURN
 from quantities import Refused, Unreadable, expression, fields, is_exact, items
@@ -47,7 +47,8 @@ class Algebraic:
 
 
 def points(item, kinds):
-    """P, and cosine and sine or the distance of every unknown of the points that an item gives: as many different ones as its degree."""
+    """P, cosine and sine or the distance of every unknown, and weights, of the points that an item gives: as many different ones as the
+    degree of P."""
     texts, values, aid = fields(item, ("kind", "polynomial", "values", "aid"))[1:]
     modulus = fmpq_poly([rational(text) for text in items(texts)])
     degree = modulus.degree()
@@ -59,10 +60,36 @@ def points(item, kinds):
         raise Refused("proof: a cosine and a sine of the points are those of no angle")
     flat = [part for own in point for part in own]
     weights, = fields(aid, ("weights",))
-    name = sum((x * rational(text) for x, text in zip(flat, items(weights, len(flat)))), Algebraic([0], modulus))
-    if name != Algebraic([0, 1], modulus):
+    weights = [rational(text) for text in items(weights, len(flat))]
+    if sum((x * w for x, w in zip(flat, weights)), Algebraic([0], modulus)) != Algebraic([0, 1], modulus):
         raise Refused("proof: the points are not told apart by the weights")
-    return modulus, point
+    return modulus, point, weights
+
+
+def is_one_in(found, kinds, mode):
+    """Whether a ball holds one of the points, with all further unknowns at 0."""
+    (modulus, point, weights), (centre, radius, _), before = found, mode, ctx.prec
+    ctx.prec = 1408  # bits: coefficients of some 400 cancel
+    try:
+        here = [(x.cos(), x.sin()) if kind == TURN else (x,) for kind, x in zip(kinds, centre)]
+        root = sum((x * w for x, w in zip((x for own in here for x in own), weights)), acb(0)).mid()
+        step = lambda t: acb_poly(modulus)(t) / acb_poly(modulus.derivative())(t)
+        for _ in range(6):  # Newton's method, from 53 bits
+            root = (root - step(root)).mid()
+        off = arb(0, modulus.degree() * step(root).abs_upper())  # P'/P is the sum of 1/(t - root) over n roots
+        root = acb(root.real + off, root.imag + off)
+        for own, now in zip(point, here):
+            values = [acb_poly(part.value)(root) for part in own]
+            if len(values) == 1:
+                is_near = (values[0] - now[0]).abs_upper() < radius
+            else:  # cosine and sine of the difference, which is less than twice the sine if that is small and the cosine positive
+                (cos, sin), (c, s) = values, now
+                is_near = 2 * (sin * c - cos * s).abs_upper() < radius and (cos * c + sin * s).real > 0
+            if not is_near:
+                return False
+        return all(x.abs_upper() < radius for x in centre[len(kinds):])
+    finally:
+        ctx.prec = before
 
 
 def rational(text):

@@ -33,7 +33,7 @@ def curve(data, item, modes):
     if system.size > 6 or system.spherical or not is_exact(system.constants()):
         raise Refused("proof: curve: only loops of at most 6 unknowns with rational constants and without spherical joints are covered")
     check_lengths(system.links, fmpq(0))
-    (modulus, point), size = points(item, system.kinds), system.size
+    (modulus, point, _), size = points(item, system.kinds), system.size
     if all(root.imag != 0 for root, _ in modulus.complex_roots()):
         raise Refused("proof: curve: none of the points is real")
     if system.around(point) != IDENTITY:

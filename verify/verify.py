@@ -12,7 +12,7 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.set_int_max_str_digits(4300)
 try:
-    from algebraic import points
+    from algebraic import is_one_in, points
     from bounds import distance, general, geometry
     from closure_polynomial import check_polynomial
     from closures import proved_modes
@@ -43,7 +43,9 @@ def check(certificate, file):
     if verb not in ("solve", "mobility", "derive") or claim.get("proof") != "proved":
         raise Refused("claim: only proved answers of solve, mobility and derive are covered")
     system, = Reader(data, True).systems(not is_motion)
-    item, *others = items(proof)
+    if not items(proof):
+        raise Refused("proof: found no item")
+    item, *others = proof
     # A second item says which solutions of a longer loop are those of a shorter one, or that they are all roots of a polynomial.
     second = {"solve": "points" if system.size < 6 and others else None, "derive": "membership"}.get(verb)
     if [other.get("kind") for other in others] != [second] * (second is not None):
@@ -90,10 +92,13 @@ def of_solutions(system, claim, modes, item, others):
         raise Refused(f"proof: {kind}: at most {bound} solutions, and {len(found)} modes are proved, some of them perhaps not real")
     if size < 6:
         # Those of the longer loop at which its added rotations stand at 0.
-        found = [mode for mode in found if not any(longer.differ(k, mode[0][k], mode[1]) for k in range(size, 6))]
-        exact = sum(exact_solutions(system, other) for other in others)
-        if len(found) != exact or is_of_own and exact != bound:
-            raise Refused(f"proof: points: they are {exact}, and {len(found)} modes may be solutions of the loop")
+        exact = exact_solutions(system, others[0]) if others else None
+        is_own = lambda mode: is_one_in(exact, system.kinds, mode) if is_of_own and exact else not any(
+            longer.differ(k, mode[0][k], mode[1]) for k in range(size, 6))
+        own, count = [mode for mode in found if is_own(mode)], exact[0].degree() if exact else 0
+        if len(own) != count or is_of_own and len(found) != count:
+            raise Refused(f"proof: points: they are {count}, and {len(own)} of the {len(found)} modes may be solutions of the loop")
+        found = own
     found_real = sum(is_real for *_, is_real in found)
     if [whole(x) for x in (real, *total)] != [found_real, len(found)][:1 + has_complex]:
         raise Refused(f"claim: found other numbers than {len(found)} solutions, {found_real} of them real")
@@ -104,11 +109,11 @@ def of_solutions(system, claim, modes, item, others):
 
 
 def exact_solutions(system, item):
-    """Theorem 11: the number of points of an item, at all of which the loop closes."""
-    modulus, point = points(item, system.kinds)
-    if system.spherical or not is_exact(system.constants()) or system.around(point) != IDENTITY:
+    """Theorem 11: the points of an item, at all of which the loop closes."""
+    found = points(item, system.kinds)
+    if system.spherical or not is_exact(system.constants()) or system.around(found[1]) != IDENTITY:
         raise Refused("proof: points: the loop is not closed there")
-    return modulus.degree()
+    return found
 
 
 def refuse_constant(text):

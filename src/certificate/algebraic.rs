@@ -1,16 +1,24 @@
 //! Points with algebraic coordinates at which a loop closes: theorems 6 and 11 of docs/certificate.md.
 
 use super::chain::ChainClosure;
+use super::enclosing::Enclosing;
 use super::fault::{Fault, refused, unreadable};
+use super::mode::Ball;
 use super::record::{decimal, fields, list, text};
+use crate::algebra::ball::Ball as Long;
 use crate::algebra::number_field::{Algebraic, NumberField};
-use crate::algebra::ring::{Field, Ring};
+use crate::algebra::ring::Ring;
 use crate::algebra::univariate::Univariate;
 use crate::kinematics::joint::Variable;
 use crate::kinematics::motion::Motion;
 use rug::Rational;
 use serde_json::Value;
 
+/// Numbers of as many bits as the links are enclosed to, less some.
+pub(super) const BITS: u32 = 1408;
+pub(super) type Far = Long<BITS>;
+/// Newton steps: from 53 bits, each doubles them.
+const STEPS: usize = 6;
 /// The kind of the item of theorem 11.
 pub(super) const KIND: &str = "points";
 /// Maximum number of solutions of six unknowns, and of conjugate points.
@@ -21,6 +29,8 @@ pub(super) struct Points {
     pub polynomial: Univariate<Rational>,
     /// Cosine and sine, or the distance, of every unknown.
     pub values: Vec<Vec<Algebraic>>,
+    /// The weights by which these numbers add up to T.
+    weights: Vec<Rational>,
 }
 
 impl Points {
@@ -64,7 +74,7 @@ impl Points {
         if flat.len() != weights.len() || name != root {
             return refused("proof: the points are not told apart by the weights");
         }
-        Ok(Self { polynomial, values })
+        Ok(Self { polynomial, values, weights })
     }
 
     /// Returns the links behind the unknowns with the motions of these in front of them, if the loop closes at the points.
@@ -83,15 +93,63 @@ impl Points {
     }
 }
 
-/// Returns the number of points of an item, at all of which a loop of fewer than six unknowns closes: theorem 11.
-pub(super) fn exact_solutions(closure: &ChainClosure, item: &Value) -> Result<usize, Fault> {
+/// Returns the points of an item, at all of which a loop of fewer than six unknowns closes: theorem 11.
+pub(super) fn exact_solutions(closure: &ChainClosure, item: &Value) -> Result<Points, Fault> {
     let points = Points::read(item, &closure.variables[..closure.own])?;
     // A spherical joint has two triples of angles for every rotation: its points would count twice.
     let links = closure.own_links.as_ref().filter(|_| closure.spherical.is_empty());
     if links.and_then(|links| points.standing(links)).is_none() {
         return refused("proof: points: the loop is not closed there");
     }
-    Ok(points.polynomial.degree().unwrap_or(0))
+    Ok(points)
+}
+
+impl Points {
+    /// Returns the number of points.
+    pub(super) fn count(&self) -> usize {
+        self.polynomial.degree().unwrap_or(0)
+    }
+
+    /// Whether a ball is proved to hold one of the points, with the added unknowns at 0.
+    ///
+    /// `P'/P` is the sum of 1/(t - root) over n roots, so that one of them is within n `|P(t)/P'(t)|` of t.
+    pub(super) fn is_one_in(&self, closure: &ChainClosure, ball: &Ball) -> bool {
+        let is_turn = |k: usize| closure.variables[k] == Variable::Rotation;
+        // What overflowed is in no ball.
+        let within = |x: &Far, factor: u32| x.upper().to_rational().is_some_and(|size| size * factor < ball.radius);
+        let here: Vec<Vec<Far>> = (0..closure.own)
+            .map(|k| {
+                let (cos, sin) = Far::cos_sin_about(&ball.centre[k], 0.0);
+                if is_turn(k) { vec![cos, sin] } else { vec![Far::about(&ball.centre[k], 0.0)] }
+            })
+            .collect();
+        let at = |polynomial: &Univariate<Rational>, t: &Far| -> Option<Far> { Some(polynomial.map(Far::from_rational)?.eval(t)) };
+        let root = || {
+            let weighed = here.iter().flatten().zip(&self.weights).map(|(x, w)| Some(x.mul(&Far::from_rational(w)?)));
+            let start = weighed.collect::<Option<Vec<Far>>>()?.iter().fold(Far::zero(), |sum, x| sum.add(x)).midpoint();
+            let slope = self.polynomial.derivative();
+            let step = |t: &Far| at(&self.polynomial, t)?.over(&at(&slope, t)?);
+            let near = (0..STEPS).try_fold(start, |t, _| Some(t.sub(&step(&t)?).midpoint()))?;
+            let off = step(&near)?.mul(&Far::from_integer(i32::try_from(self.count()).ok()?));
+            Some(near.enlarged(&off.upper()))
+        };
+        let Some(root) = root() else { return false };
+        let is_near = |k: usize| -> Option<bool> {
+            let point = self.values[k].iter().map(|x| at(&x.polynomial(), &root)).collect::<Option<Vec<Far>>>()?;
+            Some(match (point.as_slice(), here[k].as_slice()) {
+                // Cosine and sine of the difference d: where the sine is small and the cosine positive, d is less than twice the sine.
+                ([cos, sin], [c, s]) => {
+                    let along = cos.mul(c).add(&sin.mul(s));
+                    let is_right = along.sub(&Far::one()).upper() < 1;
+                    is_right && within(&sin.mul(c).sub(&cos.mul(s)), 2)
+                }
+                ([distance], [x]) => within(&distance.sub(x), 1),
+                _ => false,
+            })
+        };
+        let is_added_0 = |k: usize| within(&Far::about(&ball.centre[k], 0.0), 1);
+        (0..closure.own).all(|k| is_near(k) == Some(true)) && (closure.own..6).all(is_added_0)
+    }
 }
 
 pub(super) fn constant(c: &Rational) -> Algebraic {
@@ -103,8 +161,7 @@ fn rationals(value: &Value) -> Result<Vec<Rational>, Fault> {
     let one = |value: &Value| match text(value)?.split_once('/') {
         Some((above, below)) => {
             let below = decimal(&Value::from(below))?;
-            let inverse = below.inverse();
-            inverse.map_or_else(|| unreadable("found a division by zero"), |inverse| Ok(decimal(&Value::from(above))? * inverse))
+            if below == 0 { unreadable("found a division by zero") } else { Ok(decimal(&Value::from(above))? / below) }
         }
         None => decimal(value),
     };

@@ -131,13 +131,10 @@ pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> 
         return refused(format!("proof: at most {bound} solutions, and {} modes are proved", balls.len()));
     }
     let balls = match &closed {
-        Closed::Chain(closure) if own < 6 => own_solutions(closure, balls, second)?,
+        Closed::Chain(closure) if own < 6 => own_solutions(closure, balls, kind, second)?,
         _ => balls,
     };
     let (complex, real) = (balls.len(), balls.iter().filter(|ball| ball.real).count());
-    if kind == OF_OWN && complex != bound {
-        return refused(format!("proof: {OF_OWN}: at most {bound} solutions, and {complex} are proved"));
-    }
     if record.claim.complex != Some(complex) || record.claim.real != Some(real) {
         return refused(format!("claim: other numbers than {complex} solutions, {real} of them real, are proved"));
     }
@@ -150,12 +147,19 @@ pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> 
     Ok(Holds::Solutions { complex, real })
 }
 
-/// Returns the balls of the solutions of a loop of fewer than six unknowns among those of the longer loop: theorem 11.
-fn own_solutions(closure: &ChainClosure, balls: Vec<Ball>, item: Option<&Value>) -> Result<Vec<Ball>, Fault> {
-    let own: Vec<Ball> = balls.into_iter().filter(|ball| closure.may_be_own(ball)).collect();
-    if own.len() != item.map_or(Ok(0), |item| exact_solutions(closure, item))? {
-        let modes = own.len();
-        return refused(format!("proof: points: their number is other than {modes}, that of modes that may be solutions of the loop"));
+/// Returns the balls of the solutions of a loop of fewer than six unknowns among those of the longer loop: theorem 11. An eliminant of
+/// the loop bounds their number, or one of the longer loop that of all balls.
+fn own_solutions(closure: &ChainClosure, balls: Vec<Ball>, kind: &str, item: Option<&Value>) -> Result<Vec<Ball>, Fault> {
+    let points = item.map(|item| exact_solutions(closure, item)).transpose()?;
+    let is_own = |ball: &Ball| match &points {
+        Some(points) if kind == OF_OWN => points.is_one_in(closure, ball),
+        _ => closure.may_be_own(ball),
+    };
+    let (modes, own) = (balls.len(), balls.into_iter().filter(is_own).collect::<Vec<_>>());
+    let exact = points.map_or(0, |points| points.count());
+    if own.len() != exact || kind == OF_OWN && modes != exact {
+        let own = own.len();
+        return refused(format!("proof: points: they are {exact}, and {own} of the {modes} modes may be solutions of the loop"));
     }
     Ok(own)
 }

@@ -1,6 +1,6 @@
 //! Decides whether a closed loop moves: theorems 5 to 7 of docs/certificate.md.
 
-use super::algebraic::Points;
+use super::algebraic::{Far, Points};
 use super::bound::{choices, of_chains};
 use super::chain::{ChainClosure, six};
 use super::check::closed;
@@ -282,7 +282,7 @@ fn curve_through(entry: &Entry, q: &[f64], k: usize, solve: &dyn Fn(&ChainClosur
 }
 
 /// Returns the input that holds a joint variable at a simple value, and its cosine and sine or its distance.
-fn held_at(named: &JointVariable, place: &Place) -> Option<(Value, Vec<reconstructed::Far>)> {
+fn held_at(named: &JointVariable, place: &Place) -> Option<(Value, Vec<Far>)> {
     if named.turn != 0 {
         return None;
     }

@@ -1,21 +1,17 @@
 //! Points with algebraic coordinates, found from solutions that are known to many digits. No proof rests on this: the items are checked.
 
-use super::algebraic::KIND;
+use super::algebraic::{BITS, Far, KIND};
 use super::mode::Ball;
 use super::refine::Near;
 use super::chain::ChainClosure;
 use super::enclosing::{Enclosing, near_inverse};
 use super::isolation::{Closure, Point};
-use crate::algebra::ball::Ball as Long;
-use crate::algebra::ring::{Field, Ring};
+use crate::algebra::ring::Ring;
 use crate::kinematics::joint::Variable;
 use num_complex::Complex;
 use rug::{Float, Integer, Rational};
 use serde_json::{Value, json};
 
-/// Bits of the computation: somewhat fewer than those to which links are enclosed.
-const BITS: u32 = 1408;
-pub(super) type Far = Long<BITS>;
 /// Newton steps: from 33 bits, each doubles them.
 const STEPS: usize = 8;
 /// A rational number of which so many bits are told by the computation is believed.

@@ -13,8 +13,11 @@ LOOPROOT = os.environ["LOOPROOT"]
 VERIFY = os.environ.get("VERIFY", str(ROOT / "verify" / "verify.py"))
 ENTRIES = ["arm/manocha_canny_1994", "arm/puma560", "arm/ur5", "arm/mc16_1deg", "arm/general_02real", "chain/arm_3r3p", "chain/srrr",
            "chain/arm_ruru", "chain/ik_puma_type", "loop/rrsrr", "loop/cccr_1_angle", "loop/rrrrrrr_every_input",
-           "platform/points_6_3", "platform/affine", "platform/hexapod", "platform/similar", "chain/crcr", "chain/arm_5rp_parallel_pair"]
-MOTIONS = ["overconstrained/bennett_a", "overconstrained/bennett_broken", "overconstrained/waldron_hybrid", "loop/rrrrrrr_every_input"]
+           "platform/points_6_3", "platform/affine", "platform/hexapod", "platform/similar", "chain/crcr", "chain/arm_5rp_parallel_pair", "arm/chain_cc", "arm/chain_rrr_elbow", "chain/structure_5r",
+           "overconstrained/planar_4r", "overconstrained/dietmaier_a", "overconstrained/dietmaier_broken"]
+MOTIONS = ["overconstrained/bennett_a", "overconstrained/bennett_broken", "overconstrained/waldron_hybrid", "loop/rrrrrrr_every_input",
+           "overconstrained/spherical_4r", "overconstrained/dietmaier_a", "overconstrained/bennett_dyads_a", "chain/scp", "chain/ccc"]
+IMMOBILE = ["overconstrained/bennett_broken", "chain/scp", "chain/ccc"]
 
 
 AID = {"first": 0, "hidden": 0, "shift": "0"}
@@ -43,13 +46,16 @@ def certificates(tmp_path_factory):
 def test_certificates_of_motions_hold(certificates, checker, entry):
     name = entry.replace("/", "-") + ("-motion" if entry in ENTRIES else "")
     answer = CHECKERS[checker](certificates / name, "--file", f"equations/{entry}.toml")
-    assert answer.returncode == 0 and ("immobile" in answer.stdout) == (entry == "overconstrained/bennett_broken"), answer
+    assert answer.returncode == 0 and ("immobile" in answer.stdout) == (entry in IMMOBILE), answer
 
 
 @pytest.mark.parametrize("checker", CHECKERS)
 def test_forged_motions_are_refused(certificates, tmp_path, checker):
     mobile = json.loads((certificates / "overconstrained-bennett_a").read_text())
     broken = json.loads((certificates / "overconstrained-bennett_broken").read_text())
+    other, at_rest = (json.loads((certificates / name).read_text()) for name in ("overconstrained-spherical_4r", "chain-ccc"))
+    still, point = lines(certificates / "chain-structure_5r")[0], mobile["proof"][0]
+    at_zero = {"kind": "curve", "polynomial": ["0", "1"], "values": [[["1"], ["0"]]] * 5, "aid": {"weights": ["0"] * 10}}
     forged = {
         "a broken loop that moves": {**broken, "claim": mobile["claim"], "proof": mobile["proof"]},
         "a mobile loop that does not move": {**mobile, "claim": broken["claim"], "proof": broken["proof"]},
@@ -57,6 +63,13 @@ def test_forged_motions_are_refused(certificates, tmp_path, checker):
         "another word": {**mobile, "claim": {**mobile["claim"], "status": "immobile"}},
         "no proof": {**mobile, "proof": []},
         "a loop at rest that names no solution": {**broken, "modes": []},
+        "a curve through a point of another loop": {**mobile, "proof": other["proof"]},
+        "conjugate points that are two curves' points": {**mobile, "proof": [{**point, "polynomial": ["0", "0", "1"]}]},
+        "a loop that closes and does not move": {**still, "claim": mobile["claim"], "modes": [], "proof": [at_zero]},
+        "a solution of the loop at rest left out": {**at_rest, "modes": at_rest["modes"][1:]},
+        "a solution of the loop at rest left out, and the number": {
+            **at_rest, "modes": at_rest["modes"][1:], "proof": [{"kind": "general-bound", "value": len(at_rest["modes"]) - 1}]},
+        "a solution of the loop at rest twice": {**at_rest, "modes": at_rest["modes"][:1] * len(at_rest["modes"])},
     }
     for name, certificate in forged.items():
         answer = CHECKERS[checker](written(tmp_path / "forged", certificate))
@@ -70,6 +83,46 @@ def test_forged_motions_are_refused(certificates, tmp_path, checker):
 def test_certificates_of_the_library_hold(certificates, checker, entry):
     answer = CHECKERS[checker](certificates / entry.replace("/", "-"), "--file", f"equations/{entry}.toml")
     assert answer.returncode == 0, answer
+
+
+def lines(path):
+    return [json.loads(line) for line in path.read_text().splitlines()]
+
+
+@pytest.mark.parametrize("checker", CHECKERS)
+def test_forged_solutions_of_short_loops_are_refused(certificates, tmp_path, checker):
+    planar, dietmaier = (lines(certificates / f"overconstrained-{name}")[0] for name in ("planar_4r", "dietmaier_a"))
+    arm, general = lines(certificates / "arm-chain_cc")[0], lines(certificates / "arm-manocha_canny_1994")[0]
+    (bound, points), claim = planar["proof"], planar["claim"]
+    of_own, four = dietmaier["proof"]
+    assert bound["kind"] == "geometry-bound" and of_own["kind"] == "own-eliminant", (bound, of_own)
+    forged = {
+        "no points": {**planar, "proof": [bound]},
+        "no points, and none claimed": {**planar, "proof": [bound], "claim": {**claim, "complex": 0, "real": 0, "status": "unreachable"}},
+        "no bound": {**planar, "proof": [points, points]},
+        "points of another loop": {**planar, "proof": [bound, four]},
+        "points of another position": {**planar, "proof": [bound, lines(certificates / "overconstrained-planar_4r")[1]["proof"][1]]},
+        "a multiple polynomial": {**planar, "proof": [bound, {**points, "polynomial": [*points["polynomial"], "0"]}]},
+        "a constant": {**planar, "proof": [bound, {**points, "polynomial": ["1"]}]},
+        "no weights": {**planar, "proof": [bound, {**points, "aid": {"weights": ["0"] * len(points["aid"]["weights"])}}]},
+        "a value left out": {**planar, "proof": [bound, {**points, "values": points["values"][1:]}]},
+        "three proofs": {**planar, "proof": [bound, points, points]},
+        "a mode left out": {**planar, "modes": planar["modes"][1:], "proof": [{**bound, "value": bound["value"] - 1}, points]},
+        "another number": {**planar, "claim": {**claim, "complex": claim["complex"] + 1}},
+        "a real solution less": {**planar, "claim": {**claim, "real": claim["real"] - 1}},
+        "a mode of the loop left out": {**dietmaier, "modes": dietmaier["modes"][1:], "proof": [{**of_own, "value": 3}, four]},
+        "modes of another loop": {**dietmaier, "modes": planar["modes"][:4]},
+        "a mode with an added angle": {**dietmaier, "modes": [
+            {**mode, "centre": [*mode["centre"][:5], "0.000001"]} for mode in dietmaier["modes"]]},
+        "an eliminant that hides an added angle": {**dietmaier, "proof": [{**of_own, "aid": {**of_own["aid"], "first": 5}}, four]},
+        "an arm of six joints": {**general, "proof": [{**of_own, "value": 16}, four]},
+        "points of an arm of six joints": {**general, "proof": [*general["proof"], points]},
+        "a polynomial of a short loop": {**arm, "claim": {
+            **arm["claim"], "verb": "derive", "unknown": 1, "degree": 1, "polynomial": ["0", "1"]}},
+    }
+    for name, certificate in forged.items():
+        answer = CHECKERS[checker](written(tmp_path / "forged", certificate))
+        assert answer.returncode in (1, 2) and "holds" not in answer.stdout, (name, answer)
 
 
 def written(path, certificate):
@@ -238,7 +291,8 @@ def test_what_is_no_certificate_is_said_in_one_line(certificates, tmp_path, chec
 
 
 @pytest.mark.parametrize("entry", ["arm/puma560", "chain/crcr", "loop/rrsrr", "overconstrained/bennett_a",
-                                   "overconstrained/bennett_broken", "as_built"])
+                                   "overconstrained/bennett_broken", "as_built", "arm/chain_cc", "overconstrained/dietmaier_a-motion",
+                                   "chain/structure_5r", "chain/ccc"])
 def test_no_other_number_may_change(certificates, as_built, capsys, entry):
     """What is under `aid`, radii and centres may stay valid; all other changes are refused by both checkers."""
     sys.path.insert(0, str(pathlib.Path(__file__).parent))
