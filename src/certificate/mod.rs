@@ -22,6 +22,7 @@ mod nearby;
 mod platform;
 mod points;
 mod polynomial;
+mod real_ball;
 mod real_zeros;
 mod reconstructed;
 mod record;

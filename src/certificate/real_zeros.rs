@@ -3,9 +3,9 @@
 use super::chain::ChainClosure;
 use super::enclosing::Enclosing;
 use super::fault::{Fault, refused};
-use super::isolation::Longer;
 use super::lines::{COLUMNS, Kinds, Rows, at, matrix};
 use super::nearby::Nearby;
+use super::real_ball::RealBall;
 use super::record::{count, fields};
 use crate::algebra::determinant::determinant;
 use crate::algebra::echelon::Echelon;
@@ -66,21 +66,21 @@ pub(super) fn real_solutions(closure: &ChainClosure, choice: Choice) -> Result<u
     if [kinds[3], kinds[choice.hidden]] != [Some(Variable::Rotation); 2] {
         return no("the hidden unknown or the fourth one is no rotation");
     }
-    let links: [Motion<Longer>; 6] = std::array::from_fn(|k| {
+    let links: [Motion<RealBall>; 6] = std::array::from_fn(|k| {
         let link = &closure.links[around(k)];
         Motion {
-            rotation: link.rotation.each_ref().map(|row| row.each_ref().map(Longer::from)),
-            translation: link.translation.each_ref().map(Longer::from),
+            rotation: link.rotation.each_ref().map(|row| row.each_ref().map(RealBall::of)),
+            translation: link.translation.each_ref().map(RealBall::of),
         }
     });
     let Some(rows) = matrix(&links, &kinds, choice.hidden) else {
         return no("the other unknowns do not follow from three of them");
     };
     let Some(minor) = minor(&rows) else { return no("the eliminant is 0, or not known well enough") };
-    let backwards: Vec<Longer> = minor.iter().rev().cloned().collect();
+    let backwards: Vec<RealBall> = minor.iter().rev().cloned().collect();
     let end = Rational::from(END);
     let inverse = Rational::from(end.recip_ref());
-    let within = |f: &[Longer], end: &Rational| zeros(&shifted(f, &Rational::new(), end)?, 0);
+    let within = |f: &[RealBall], end: &Rational| zeros(&shifted(f, &Rational::new(), end)?, 0);
     match [within(&minor, &end), within(&backwards, &inverse)] {
         [Some(inside), Some(outside)] => Ok(inside + outside),
         _ => no("two zeros may be one, or one is at the end of an interval"),
@@ -88,27 +88,27 @@ pub(super) fn real_solutions(closure: &ChainClosure, choice: Choice) -> Result<u
 }
 
 /// Returns the coefficients of a minor that is not 0 as a polynomial of degree 24, the highest ones 0 if it has a lower degree.
-fn minor(rows: &Rows<Longer>) -> Option<Vec<Longer>> {
-    let place = |k: i32| Longer::from_rational(&Rational::from((11 * k + 1, 8)));
+fn minor(rows: &Rows<RealBall>) -> Option<Vec<RealBall>> {
+    let place = |k: i32| RealBall::from_rational(&Rational::from((11 * k + 1, 8)));
     let chosen = Echelon::of(at(rows, &place(3)?), COLUMNS);
     if chosen.rank() < COLUMNS {
         return None;
     }
-    let chosen: Rows<Longer> = chosen.independent_rows().iter().map(|row| rows[*row].clone()).collect();
+    let chosen: Rows<RealBall> = chosen.independent_rows().iter().map(|row| rows[*row].clone()).collect();
     let value = |k: i32| {
         let t = place(k)?;
         // A determinant without a sure pivot is 0 as a number, and no bound.
         let value = determinant(&at(&chosen, &t));
         (!value.is_zero()).then_some((t, value))
     };
-    let points: Vec<(Longer, Longer)> = PLACES.map(value).collect::<Option<_>>()?;
+    let points: Vec<(RealBall, RealBall)> = PLACES.map(value).collect::<Option<_>>()?;
     let mut coefficients = Univariate::interpolate(&points).coefficients().to_vec();
-    coefficients.resize(DEGREE + 1, Longer::zero());
+    coefficients.resize(DEGREE + 1, RealBall::zero());
     Some(coefficients)
 }
 
 /// Returns the number of zeros from -1 to 1 of a real polynomial that is not 0 at these ends; `None` if they are not proved to be simple.
-fn zeros(f: &[Longer], depth: usize) -> Option<usize> {
+fn zeros(f: &[RealBall], depth: usize) -> Option<usize> {
     rounded(f).and_then(|near| few_zeros(&near, SHALLOW)).or_else(|| few_zeros(f, 0)).or_else(|| {
         let parts = if depth < DEEPEST { divided(f) } else { None };
         let [below, above] = parts?;
@@ -117,10 +117,14 @@ fn zeros(f: &[Longer], depth: usize) -> Option<usize> {
 }
 
 /// Returns the coefficients in f64, as parts of the largest one.
-fn rounded(f: &[Longer]) -> Option<Vec<Nearby>> {
-    let size = f.iter().filter_map(|c| c.upper().get_exp()).max()?;
+fn rounded(f: &[RealBall]) -> Option<Vec<Nearby>> {
+    let size = f.iter().filter_map(|c| c.parts().0.get_exp()).max()?;
     let part = |x: &Float| x.clone() >> size;
-    let near = |c: &Longer| Nearby::near(&part(c.re()), &part(c.im()), part(c.radius()).to_f64_round(Round::Up));
+    let near = |c: &RealBall| {
+        let (middle, radius) = c.parts();
+        let radius = part(&Float::with_val(53, radius)).to_f64_round(Round::Up);
+        Nearby::near(&part(middle), &Float::new(53), radius)
+    };
     Some(f.iter().map(near).collect())
 }
 
@@ -172,11 +176,11 @@ mod tests {
     use super::*;
 
     /// The product of `x - root` and of `x^2 + 1`.
-    fn with_roots(roots: &[(i32, i32)]) -> Vec<Longer> {
+    fn with_roots(roots: &[(i32, i32)]) -> Vec<RealBall> {
         let circle = Univariate::new([1, 0, 1].map(Rational::from).to_vec());
         let linear = |root: &(i32, i32)| Univariate::new(vec![-Rational::from(*root), Rational::from(1)]);
         let product = roots.iter().fold(circle, |product, root| product.mul(&linear(root)));
-        product.coefficients().iter().map(|c| Longer::from_rational(c).unwrap()).collect()
+        product.coefficients().iter().map(|c| RealBall::from_rational(c).unwrap()).collect()
     }
 
     #[test]
