@@ -455,6 +455,8 @@ impl Angle {
     /// use looproot_algebra::number::{Angle, HalfTangent, Reading};
     /// let angle = Angle::parse("acos(-3/5)", &Reading::default())?.supplement();
     /// assert_eq!(*angle.half_tangent(), HalfTangent::Finite((1, 2).into()));
+    /// let angle = Angle::parse("99 deg", &Reading::default())?.supplement();
+    /// assert_eq!(angle.text().as_deref(), Some("180 - (99) deg"));
     /// # Ok::<(), looproot_algebra::error::Error>(())
     /// ```
     #[must_use]
@@ -467,7 +469,12 @@ impl Angle {
         let opposite = |cosine: &Enclosure| cosine.scaled(&Rational::from(-1));
         let enclosed = self.enclosed.as_ref().map(|of| Box::new((opposite(&of.0), of.1.clone())));
         let phase = self.phase.as_ref().map(|of| Arc::new((of.0.neg(), of.1.clone())));
-        let written = self.written.text().map(|text| Written::new(&format!("180 deg - ({text})"), Rational::from(1)));
+        // A unit stands behind a whole sum.
+        let of_text = |text: &str| match text.strip_suffix("deg") {
+            Some(degrees) => format!("180 - ({}) deg", degrees.trim_end()),
+            None => format!("pi - ({})", text.strip_suffix("rad").unwrap_or(text).trim_end()),
+        };
+        let written = self.written.text().map(|text| Written::new(&of_text(&text), Rational::from(1)));
         let written = written.unwrap_or_default();
         let (exact, turned) = (self.exact, Self::from_half_tangent(half_tangent));
         if exact { turned } else { Self { exact, enclosed, phase, written, ..turned } }
