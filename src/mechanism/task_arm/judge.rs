@@ -55,10 +55,13 @@ impl TaskArm {
         tolerance: Tolerance,
     ) -> Solution {
         let total = found.len();
-        let (mut listed, mut others) = (Vec::new(), Vec::new());
+        let (mut listed, mut others) = (Vec::<FullMode>::new(), Vec::new());
         for Found { mode, miss } in found {
             if mode.real && tolerance.allows(&miss) {
-                listed.push(FullMode { error: Some(miss), ..mode });
+                // Three virtual rotations about one point have two triples of angles for every rotation.
+                if !listed.iter().any(|other| self.is_twice(other, &mode)) {
+                    listed.push(FullMode { error: Some(miss), ..mode });
+                }
             } else {
                 others.push(Found { mode, miss });
             }
@@ -149,6 +152,19 @@ impl TaskArm {
             let off = if *variable == Variable::Rotation { off - TAU * (off / TAU).round() } else { off };
             off.abs() > SAME
         })
+    }
+
+    /// Whether two certified modes agree within their radii in all joints of the arm: they differ in virtual joints alone.
+    fn is_twice(&self, one: &FullMode, other: &FullMode) -> bool {
+        let radius = one.radius + other.radius;
+        let variables = self.forward.variables();
+        one.certified
+            && other.certified
+            && one.q.iter().zip(&other.q).zip(variables).all(|((one, other), variable)| {
+                let off = one.re - other.re;
+                let off = if *variable == Variable::Rotation { off - TAU * (off / TAU).round() } else { off };
+                off.abs() <= radius
+            })
     }
 
     /// A configuration that only comes near the pose.
