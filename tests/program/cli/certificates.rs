@@ -36,7 +36,9 @@ fn an_eliminant_bounds_fewer_solutions_than_the_general_number() {
 fn whether_a_loop_moves_is_certified() {
     for (entry, proof, says) in [
         ("overconstrained/bennett_a", "curve", "mobile, of dimension 1"),
+        ("overconstrained/dietmaier_a", "curve", "mobile, of dimension 1"),
         ("overconstrained/bennett_broken", "eliminant", "immobile"),
+        ("chain/scp", "general-bound", "immobile"),
         ("loop/rrrrrrr_every_input", "regular", "mobile, of dimension 1"),
     ] {
         let path = certified("mobility", entry);
@@ -53,6 +55,29 @@ fn whether_a_loop_moves_is_certified() {
     }
     let said = run(&["mobility", "framework/steffen", "--certificate", &file("certificates/none_motion", "")]);
     assert!(said.code == 1 && said.err.lines().count() == 1, "{}", said.err);
+}
+
+#[test]
+fn solutions_of_fewer_than_six_unknowns_are_given_exactly() {
+    for (entry, says) in [
+        ("arm/chain_cc", "holds: 1 solutions, 1 of them real"),
+        ("overconstrained/planar_4r", "holds: 2 solutions, 2 of them real"),
+        ("overconstrained/dietmaier_a", "holds: 4 solutions, 2 of them real"),
+        ("chain/structure_5r", "holds: 1 solutions, 1 of them real"),
+    ] {
+        let path = certified("solve", entry);
+        let checked = run(&["verify", &path, "--file", entry]);
+        assert!(checked.code == 0 && checked.out.contains(says), "{entry}: {}", checked.out);
+        let first = fs::read_to_string(&path).unwrap().lines().next().map(json).unwrap();
+        let mut forged = first.clone();
+        forged["proof"].as_array_mut().unwrap().pop();
+        let checked = run(&["verify", &file("certificates/forged_no_points", forged.to_string())]);
+        assert!(checked.code == 2 && checked.out.contains("points"), "{entry}: {}", checked.out);
+        let mut forged = first;
+        forged["proof"][1]["values"][0][0] = json!(["1/7"]);
+        let checked = run(&["verify", &file("certificates/forged_points", forged.to_string())]);
+        assert!(checked.code == 2 && checked.out.contains("proof"), "{entry}: {}", checked.out);
+    }
 }
 
 /// An arm whose links are 1.4 m long together, at a pose 600 km away: its complex solutions are not proved.
