@@ -57,7 +57,8 @@ pub(super) fn mobility(
             if modes.iter().any(|mode| mode.multiplicity != 1) {
                 return refused("modes: simple solutions of the longer loop are asked for");
             }
-            does_not_move(entry, item, modes.into_iter().map(|mode| mode.ball).collect())?;
+            let balls: Vec<Ball> = modes.into_iter().map(|mode| mode.ball).collect();
+            does_not_move(entry, item, &balls)?;
             0
         }
         "curve" => {
@@ -86,7 +87,7 @@ fn longer_loop(entry: &Entry) -> Result<ChainClosure, Fault> {
 }
 
 /// Checks theorem 5: the solutions of the longer loop are finitely many.
-fn does_not_move(entry: &Entry, item: &Value, balls: Vec<Ball>) -> Result<(), Fault> {
+fn does_not_move(entry: &Entry, item: &Value, balls: &[Ball]) -> Result<(), Fault> {
     let longer = longer_loop(entry)?;
     let least = if item.get("kind").and_then(Value::as_str) == Some("general-bound") {
         let [_, stated] = fields(item, ["kind", "value"], &[])?;
@@ -100,7 +101,7 @@ fn does_not_move(entry: &Entry, item: &Value, balls: Vec<Ball>) -> Result<(), Fa
         solutions_by_eliminant(&longer, &Choice::read(aid)?, &[])?;
         None
     };
-    proved_modes(&Closed::Chain(Box::new(longer)), &balls)?;
+    proved_modes(&Closed::Chain(Box::new(longer)), balls)?;
     if balls.is_empty() || least.is_some_and(|least| balls.len() != least) {
         return refused(format!("modes: {} solutions of the longer loop are proved, more or others are asked for", balls.len()));
     }
