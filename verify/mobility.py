@@ -83,8 +83,8 @@ def regular(data, item, modes):
     """Theorem 7: with one unknown of seven held a real solution is simple."""
     _, held = fields(item, ("kind", "held"))
     system, = Reader({**data, "input": [held]}, True).systems()
-    if system.size != 6 or system.spherical:
-        raise Refused("proof: regular: only loops of seven unknowns without spherical joints are covered")
+    if system.size != 6:
+        raise Refused("proof: regular: only loops of seven unknowns are covered")
     if [is_real for *_, is_real in proved_modes(system, items(modes, 1))] != [True]:
         raise Refused("mode 1: a real configuration is asked for")
     return 1

@@ -224,8 +224,8 @@ fn is_regular(data: &Map<String, Value>, held: &Value, modes: Vec<Unproved>) -> 
     if mode.multiplicity != 1 || !mode.ball.real {
         return refused("mode 1: a simple real configuration is asked for");
     }
-    if !matches!(&closed, Closed::Chain(closure) if closure.spherical.is_empty() && closure.own == 6) {
-        return refused("proof: regular: only loops of seven unknowns without spherical joints are covered");
+    if !matches!(&closed, Closed::Chain(closure) if closure.own == 6) {
+        return refused("proof: regular: only loops of seven unknowns are covered");
     }
     proved_modes(&closed, &[mode.ball])
 }

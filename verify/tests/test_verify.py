@@ -16,7 +16,7 @@ ENTRIES = ["arm/manocha_canny_1994", "arm/puma560", "arm/ur5", "arm/mc16_1deg", 
            "platform/points_6_3", "platform/affine", "platform/hexapod", "platform/similar", "chain/crcr", "chain/arm_5rp_parallel_pair", "arm/chain_cc", "arm/chain_rrr_elbow", "chain/structure_5r",
            "overconstrained/planar_4r", "overconstrained/dietmaier_a", "overconstrained/dietmaier_broken"]
 MOTIONS = ["overconstrained/bennett_a", "overconstrained/bennett_broken", "overconstrained/waldron_hybrid", "loop/rrrrrrr_every_input",
-           "overconstrained/spherical_4r", "overconstrained/dietmaier_a", "overconstrained/bennett_dyads_a", "chain/scp", "chain/ccc"]
+           "overconstrained/spherical_4r", "overconstrained/dietmaier_a", "overconstrained/bennett_dyads_a", "chain/scp", "chain/ccc", "loop/rscr"]
 IMMOBILE = ["overconstrained/bennett_broken", "chain/scp", "chain/ccc"]
 
 
