@@ -1,8 +1,9 @@
 //! Points of a platform that coincide exactly or lie in an affine relation, and the bound on the number of poses that follows for
-//! legs of any length. docs/platforms.md, theorems 3, 4 and 5, has the proofs.
+//! legs of any length. docs/platforms.md, theorems 3 to 6, has the proofs.
 
 use super::affine_platform::AffineRelation;
 use super::border::DIMENSION;
+use super::platform_far::far_solutions;
 use super::platform_null::null_solutions;
 use super::triangle_platform::pairs;
 use crate::kinematics::motion::{Vector, cross};
@@ -11,7 +12,7 @@ use rug::Rational;
 
 /// Bound where three legs meet, or where all legs meet in pairs in the corners of a triangle.
 const POSES: usize = 16;
-/// Reason where lines through points of both bodies leave fewer poses than six general legs have.
+/// Reason where lines through points of both bodies, or solutions at infinity, leave fewer poses than six general legs have.
 const NULL: &str = "the others of the 40 solutions of six legs have N = 0, whatever the legs are";
 
 /// Returns a bound on the number of isolated poses, with multiplicity, and its reason; `None` where no such incidence is known.
@@ -25,7 +26,7 @@ pub fn most_poses(platform: &Platform<Rational>) -> Option<(usize, &'static str)
     let affine = AffineRelation::of(platform).map(|relation| relation.bound());
     let pairs = in_pairs(platform).then_some((POSES, "the legs meet in pairs in the corners of a triangle"));
     let affine = affine.map(|bound| (bound.poses, bound.because));
-    let null = match null_solutions(platform) {
+    let null = match null_solutions(platform) + far_solutions(platform) {
         0 => None,
         null => Some((DIMENSION.saturating_sub(null), NULL)),
     };

@@ -82,6 +82,8 @@ struct Ladder {
     /// Without virtual joints.
     layout: Layout,
     rungs: Vec<Rung>,
+    /// Whether the unknowns are dependent in every position, whatever is added: only the rationals answer then.
+    is_dependent: bool,
     /// Whether an answer over the rationals took too long at some input; it is then not tried at others.
     is_long: AtomicBool,
 }
@@ -199,8 +201,13 @@ fn scaled(open: &OpenLoop<f64>, unit: f64) -> OpenLoop<f64> {
 impl OverconstrainedLoop {
     /// Prepares the chain of an entry for all its cases.
     pub(super) fn prepare(entry: &Entry, chain: &Chain) -> Result<Self> {
-        let ladder =
-            |layout: Layout| Ok(Ladder { rungs: rungs(chain, &layout)?, layout, is_long: AtomicBool::new(false) });
+        let ladder = |layout: Layout| {
+            let (rungs, is_dependent) = match rungs(chain, &layout) {
+                Err(Error::UnsupportedMobility(_)) => (Vec::new(), true),
+                rungs => (rungs?, false),
+            };
+            Ok(Ladder { layout, rungs, is_dependent, is_long: AtomicBool::new(false) })
+        };
         let prepared = ByInput::prepare(entry, chain, ladder)?;
         Ok(Self { chain: chain.clone(), limits: entry.limits.clone(), is_rounded: entry.rounded, prepared })
     }
@@ -217,6 +224,9 @@ impl OverconstrainedLoop {
         let start = Instant::now();
         let locked = ladder.layout.locked;
         let exact = self.exactly(ladder, case)?;
+        if ladder.is_dependent && exact.is_none() {
+            return Err(dependent(&self.chain));
+        }
         // A loop that does not close, or closes at points, need not be searched for a motion.
         let is_asked = locked.is_none() && !self.is_rounded;
         let points = if is_asked && exact.is_none() { self.count_by_ring(&ladder.layout, case) } else { None };
@@ -276,7 +286,7 @@ impl OverconstrainedLoop {
             // A joint without which the others are dependent cannot be held to find the motion.
             let Ok(rungs) = rungs(&self.chain, &layout) else { continue };
             let joint = self.joint_of(locked);
-            let ladder = Ladder { layout, rungs, is_long: AtomicBool::new(true) };
+            let ladder = Ladder { layout, rungs, is_dependent: false, is_long: AtomicBool::new(true) };
             for number in 0..PLACES {
                 let case = self.held(joint, variables[locked], number);
                 let (verdict, _) = self.isolated(&ladder, &case, Roots::All, workspace, assembly)?;

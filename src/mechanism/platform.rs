@@ -162,7 +162,7 @@ impl PreparedPlatform {
             residual: mode.residual,
             condition: velocity.as_ref().map_or(mode.condition, |v| v.singular_values[0] / v.singular_values[5]),
             certified: mode.certificate.is_some(),
-            radius: mode.certificate.map_or(f64::INFINITY, |c| c.radius),
+            radius: mode.certificate.map_or(f64::INFINITY, |c| c.radius.max(self.solver.position_error(mode))),
             within_limits: is_limited.then_some(outside.is_empty()),
             near: false,
             error: None,

@@ -263,7 +263,16 @@ impl Subject<'_> {
             }
             Outcome::Nothing => {
                 let why = is_open_everywhere(&turned).then_some(NO_CURVE);
-                if is_short { Ok(self.immobile(why)) } else { self.structure(why) }
+                if !is_short {
+                    return self.structure(why);
+                }
+                // The centre of a spherical joint may decide what the three angles do not.
+                let by_centre = if why.is_none() && self.spherical_joints().len() == 1 {
+                    Some(self.structure(None)?).filter(|answer| answer.proof.is_proved())
+                } else {
+                    None
+                };
+                Ok(by_centre.unwrap_or_else(|| self.immobile(why)))
             }
         }
     }
@@ -385,7 +394,14 @@ impl Subject<'_> {
                 && verdict.certified == verdict.complex
                 && verdict.complex > 0;
         let is_full = is_complete && meets_bound && self.linkage.axes.iter().all(|axis| *axis == Axis::Z);
-        let is_proved = is_full || why.is_some();
+        // A finite list of all complex solutions, multiple ones included, has no curve beside it. What spins between two spherical
+        // joints is no part of such a list.
+        let is_counted = is_complete
+            && verdict.proof.is_proved()
+            && verdict.complex_complete
+            && matches!(verdict.code, Code::ExactRootsMatched | Code::NoSolution)
+            && self.spherical_joints().len() < 2;
+        let is_proved = is_full || is_counted || why.is_some();
         let mut configurations = Vec::new();
         for mode in solution.modes.iter().filter(|mode| mode.real) {
             configurations.push(self.singular(mode).unwrap_or_else(|| self.measured(mode)));
@@ -414,6 +430,8 @@ impl Subject<'_> {
         };
         let curves = if is_full {
             "as many as there can be"
+        } else if is_counted {
+            "these are all, complex ones included, so that none of them moves"
         } else {
             why.unwrap_or("no motion was found through any value of a joint, but that there is none is not proved")
         };
@@ -458,9 +476,9 @@ impl Subject<'_> {
         let n = self.variables.len();
         // Certified solutions of six equations in six unknowns are regular: rank 6.
         let local = match (mode.certified, n) {
-            (true, 6) => Local::Isolated { order: 1 },
-            (true, _) => Local::Manifold { dimension: n - 6 },
-            (false, _) if mode.multiplicity > 0 => Local::Isolated { order: mode.multiplicity },
+            (true, 6) if mode.multiplicity < 2 => Local::Isolated { order: 1 },
+            (true, 7..) => Local::Manifold { dimension: n - 6 },
+            _ if mode.multiplicity > 0 => Local::Isolated { order: mode.multiplicity },
             _ => Local::Deficient,
         };
         self.placed(mode.q.iter().map(|z| z.re).collect(), local)

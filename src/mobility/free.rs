@@ -17,7 +17,7 @@ use crate::kinematics::freedom::Freedom;
 use crate::kinematics::motion::{Motion, Vector, dot};
 use crate::mechanism::FullMode;
 use crate::solve::newton::approach;
-use crate::verdict::{Code, Proof};
+use crate::verdict::{Code, Proof, Status};
 use nalgebra::DVector;
 use num_complex::Complex;
 use rug::{Float, Rational};
@@ -63,6 +63,9 @@ impl Subject<'_> {
         if let Some(found) = assembler.assembled() {
             return self.rounded(self.certified(found));
         }
+        if let Some(answer) = self.between_spherical_joints() {
+            return answer;
+        }
         let none = format!(
             "no regular real configuration was found: approached from {STARTS} places, the closure equations are off by {:.1e} \
              at least",
@@ -91,6 +94,38 @@ impl Subject<'_> {
             None => String::new(),
         };
         self.answer(None, (Proof::None, Code::NotDecided), none + &general)
+    }
+
+    /// Loops of two neighbouring spherical joints and one more variable, whose real configurations are all multiple: the equation for the
+    /// distance of the centres leaves that variable finitely many values, and only the link between the centres spins.
+    fn between_spherical_joints(&self) -> Option<Mobility> {
+        let spherical_joints = self.spherical_joints();
+        let [first, second] = *spherical_joints.as_slice() else { return None };
+        if self.variables.len() != 7 {
+            return None;
+        }
+        let link = if second == first + 3 { first + 2 } else { second + 2 };
+        // Centres that coincide let that link turn in all three directions.
+        if self.linkage.links[link].to_motion()?.translation.iter().all(|x| *x == 0) {
+            return None;
+        }
+        let solution = solve(self.entry, Case::free(0), false).ok()?;
+        let verdict = &solution.verdict;
+        let is_decided =
+            verdict.status == Status::Complete && verdict.proof.is_proved() && verdict.complex_complete;
+        if !is_decided || verdict.real == 0 {
+            return None;
+        }
+        let real = solution.modes.iter().filter(|mode| mode.real);
+        let place = |mode: &FullMode| self.placed(mode.q.iter().map(|z| z.re).collect(), Local::Manifold { dimension: 1 });
+        let configurations: Vec<Configuration> = real.map(place).collect();
+        let reason = format!(
+            "the equation for the distance of the centres of both S joints leaves the other joint finitely many values: {}; only the spin \
+             of the link between the S joints is left",
+            verdict.reason
+        );
+        let rests_on = (Proof::Proved, Code::ExactRootsMatched);
+        Some(Mobility { configurations, complex: verdict.complex, ..self.answer(Some(1), rests_on, reason) })
     }
 
     /// Certified regular configurations of a loop with more variables than equations.

@@ -124,11 +124,17 @@ fn near(random: &mut impl Rng, tangent: &str) -> String {
 /// An arm of rotations with zeros, right angles and parallel axes, at the pose of a configuration that is singular as a rule or
 /// beside such a one, and that configuration.
 fn special_arm(seed: u64) -> (String, Vec<f64>) {
-    special_arm_with(seed, 0)
+    special_arm_with(seed, 0, &LENGTHS)
 }
 
-/// Returns a special arm with this many translations among the first joints.
-fn special_arm_with(seed: u64, translations: usize) -> (String, Vec<f64>) {
+/// Lengths and offsets of special arms.
+const LENGTHS: [&[&str]; 2] = [&["0", "0", "1", "-1", "2", "1/2"], &["0", "0", "1", "-2", "3/2"]];
+/// The same of all sizes.
+const OF_ALL_SIZES: [&[&str]; 2] =
+    [&["0", "1", "100000000", "1/100000000", "-3/2"], &["0", "0", "1/100000000", "-200000000", "1", "7/100"]];
+
+/// Returns a special arm with this many translations among the first joints, of these lengths and offsets.
+fn special_arm_with(seed: u64, translations: usize, lengths: &[&[&'static str]; 2]) -> (String, Vec<f64>) {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let (mut joints, mut values) = (Vec::new(), Vec::new());
     let places: Vec<usize> = [1, 3, 5].map(|k| (k * usize::try_from(seed).unwrap()) % 6).to_vec();
@@ -137,9 +143,9 @@ fn special_arm_with(seed: u64, translations: usize) -> (String, Vec<f64>) {
     let mut beside = ChaCha8Rng::seed_from_u64(seed);
     let is_beside = beside.random_bool(0.5);
     for joint in 0..6 {
-        let a = pick(&mut random, &["0", "0", "1", "-1", "2", "1/2"]);
+        let a = pick(&mut random, lengths[0]);
         let twist = pick(&mut random, &["0", "0", "1", "-1", "1", "1/2", "inf"]);
-        let d = pick(&mut random, &["0", "0", "1", "-2", "3/2"]);
+        let d = pick(&mut random, lengths[1]);
         let angle = pick(&mut random, &["0", "0", "1", "-1", "inf", "1/2", "-1/3"]);
         let angle = if is_beside { near(&mut beside, angle) } else { angle.to_owned() };
         let (cos, sin) = turn(&angle);
@@ -167,8 +173,8 @@ fn special_arm_with(seed: u64, translations: usize) -> (String, Vec<f64>) {
 
 /// Returns the contradiction in the answer to a special arm: the planted configuration is not listed, or the exact side alone
 /// counts other solutions.
-fn contradiction(seed: u64, translations: usize) -> Option<String> {
-    let (text, planted) = special_arm_with(seed, translations);
+fn contradiction(seed: u64, translations: usize, lengths: &[&[&'static str]; 2]) -> Option<String> {
+    let (text, planted) = special_arm_with(seed, translations, lengths);
     let answer = solved(&text);
     let verdict = &answer.verdict;
     let is_proved = verdict.proof == Proof::Proved;
@@ -210,7 +216,7 @@ fn contradiction(seed: u64, translations: usize) -> Option<String> {
 fn special_arms_do_not_contradict_the_exact_side() {
     // A long run is asked for by the number of arms: LOOPROOT_SPECIAL_ARMS=100000.
     let count = std::env::var("LOOPROOT_SPECIAL_ARMS").ok().and_then(|n| n.parse().ok()).unwrap_or(60);
-    let faults: Vec<String> = (0..count).filter_map(|seed| contradiction(seed, 0)).collect();
+    let faults: Vec<String> = (0..count).filter_map(|seed| contradiction(seed, 0, &LENGTHS)).collect();
     assert!(faults.is_empty(), "{}", faults.join("\n"));
     let proved = (0..20).filter(|seed| solved(&special_arm(*seed).0).verdict.proof == Proof::Proved).count();
     // Most of the others move.
@@ -221,7 +227,14 @@ fn special_arms_do_not_contradict_the_exact_side() {
 fn special_arms_with_translations_do_not_contradict_the_exact_side() {
     let count = std::env::var("LOOPROOT_SPECIAL_ARMS").ok().and_then(|n| n.parse().ok()).unwrap_or(12);
     let both = (0..count).flat_map(|seed| [(seed, 1), (seed, 2)]);
-    let faults: Vec<String> = both.filter_map(|(seed, translations)| contradiction(seed, translations)).collect();
+    let faults: Vec<String> = both.filter_map(|(seed, translations)| contradiction(seed, translations, &LENGTHS)).collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn arms_of_lengths_of_all_sizes_do_not_contradict_the_exact_side() {
+    let count = std::env::var("LOOPROOT_SPECIAL_ARMS").ok().and_then(|n| n.parse().ok()).unwrap_or(16);
+    let faults: Vec<String> = (0..count).filter_map(|seed| contradiction(seed, 0, &OF_ALL_SIZES)).collect();
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 

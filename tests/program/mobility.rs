@@ -247,6 +247,24 @@ fn spherical_joints_have_no_singular_position() {
     }
 }
 
+/// By construction: the centre of a spherical joint beside the axes that carry it stands still, and on the axis of the only other
+/// joint it does not.
+#[test]
+fn loops_with_spherical_joints_are_decided_by_their_centres() {
+    let of = |joints: &[(&str, &str, &str)]| mobility(&screws(joints)).unwrap();
+    for (joints, expected) in [
+        (vec![("S", "[0, 0, 1]", "[3, 3, 0]"), ("R", "[3, 4, 0]", "[1, 1, 1]")], 0),
+        (vec![("S", "[0, 0, 1]", "[4, 5, 1]"), ("R", "[3, 4, 0]", "[1, 1, 1]")], 1),
+        (vec![("S", "[0, 0, 1]", "[3, 3, 0]"), ("P", "[3, 4, 0]", "[0, 0, 0]")], 0),
+        (vec![("S", "[0, 0, 1]", "[5, 0, 0]"), ("R", "[0, 0, 1]", "[0, 0, 0]"), ("R", "[0, 0, 1]", "[3, 0, 0]")], 0),
+        // Two links stretched, and the centre in one line with them: the link between the centres spins, and no more.
+        (vec![("R", "[0, 0, 1]", "[0, 0, 0]"), ("S", "[0, 0, 1]", "[3, 0, 0]"), ("S", "[0, 0, 1]", "[5, 0, 0]")], 1),
+    ] {
+        let answer = of(&joints);
+        assert_eq!((answer.mobility, answer.proof), (Some(expected), Proof::Proved), "{joints:?}: {}", answer.reason);
+    }
+}
+
 #[test]
 fn decimals_are_exact_unless_they_look_rounded() {
     let with = |length: &str| mobility(&entry(&bennett("4").replace("a = 4", &format!("a = {length}")))).unwrap();

@@ -10,6 +10,7 @@ use crate::kinematics::dual_quaternion::Quaternion;
 use crate::kinematics::motion::Vector;
 use crate::kinematics::platform::Platform;
 use crate::solve::scalar::Scalar;
+use num_complex::Complex;
 use rug::Rational;
 
 /// Rotations (w, x, y, z) of base and moving platform, so that no solution of a real mechanism lies at the edge of a chart.
@@ -281,6 +282,32 @@ impl Frame {
             let moved = vector[k].times(self.scale).sub(&turned[k]).over(norm);
             moved.add(&S::from_f64(self.origins[0][k]))
         })
+    }
+}
+
+/// Roundings of a numerator of the translation in f64, relative to the sum of the sizes of its terms: products of three numbers, complex
+/// ones, and sums of sixteen terms.
+const POSITION_ROUNDINGS: f64 = 64.0;
+
+impl Frame {
+    /// Returns a bound on the error of [`Frame::position`] where every one of Study's parameters is off by at most `radius`, and each
+    /// operation rounds; infinite where `x.x` may be 0.
+    pub fn position_error(&self, study: &[Complex<f64>; 8], radius: f64) -> f64 {
+        let sum = |values: &[Complex<f64>]| values.iter().map(|z| z.re.abs() + z.im.abs()).sum::<f64>();
+        let (x, y) = (sum(&study[..4]), sum(&study[4..]));
+        let plate = self.origins[1].iter().map(|c| c.abs()).sum::<f64>();
+        let base = self.origins[0].iter().fold(0.0, |most: f64, c| most.max(c.abs()));
+        // Every entry of `y x*` is a sum of four products of one number of each, and one of `x c x*` a sum of such with four pairs of x
+        // for every entry of c; N is a sum of four squares.
+        let product = radius * (x + y) + 4.0 * radius * radius;
+        let square = 2.0 * radius * x + 4.0 * radius * radius;
+        let rounding = POSITION_ROUNDINGS * f64::EPSILON;
+        let above = self.scale * (product + rounding * x * y) + plate * (square + rounding * x * x);
+        let below = square + rounding * x * x;
+        let norm = norm(study).norm() - below;
+        let moved = self.position(study).map(|z| z.norm()).into_iter().fold(0.0, f64::max);
+        // NaN becomes infinite.
+        if norm > 0.0 { (above + (moved + base) * below) / norm + rounding * (moved + base) } else { f64::INFINITY }
     }
 }
 

@@ -4,7 +4,7 @@ use super::affine::affine_starts;
 use super::exact::exact_modes;
 use super::high_precision::starts;
 use super::homotopy::{End, Homotopy};
-use super::mode::{PlatformAssembly, Route};
+use super::mode::{PlatformAssembly, PlatformMode, Route};
 use super::prepared::{Chart, Frame, LegNumbers, Squares};
 use super::reflection::Reflection;
 use super::search::{Found, Search, Source, real_parts, take_in, tell};
@@ -114,6 +114,12 @@ impl PlatformSolver {
     #[must_use]
     pub fn incidence(&self) -> Option<(usize, &'static str)> {
         self.incidence
+    }
+
+    /// Returns a bound on the error of the translation of a certified mode, in the unit of the mechanism; infinite without certificate.
+    #[must_use]
+    pub fn position_error(&self, mode: &PlatformMode) -> f64 {
+        mode.certificate.map_or(f64::INFINITY, |c| self.frame.position_error(&mode.study, c.radius))
     }
 
     /// Returns the 40 x 40 matrix whose eigenvalues are computed for these legs; `None` if the geometry is special.

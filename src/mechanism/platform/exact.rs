@@ -72,9 +72,15 @@ impl ExactSide<'_> {
         if let Some((most, why)) = self.incidence
             && search.proved() == most
         {
-            search.assembly.self_motion = 0;
-            search.keep_proved();
-            return PlatformKnowledge { count: Some(at_most(most, why)), ..PlatformKnowledge::default() };
+            return Self::met(search, most, why);
+        }
+        // Without a border basis of its own, f64 finds the poses of a platform along paths, and loses some where the data are special.
+        let is_by_paths = matches!(search.assembly.route, Route::Homotopy { .. });
+        if let Some((most, why)) = self.incidence.filter(|_| is_by_paths) {
+            self.solve_in_high_precision::<LIMBS>(search, most);
+            if search.proved() == most {
+                return Self::met(search, most, why);
+            }
         }
         let degree = platform_degree(self.platform, self.squares);
         let Some(PlatformDegree::Finite { poses, null, curves }) = degree else {
@@ -155,7 +161,20 @@ impl ExactSide<'_> {
         if is_done(search, knowledge.reals) || search.assembly.total() > total {
             search.keep_proved();
         }
+        // As many poses as the geometry allows need no count.
+        if let Some((most, why)) = self.incidence
+            && search.proved() == most
+        {
+            knowledge.count = Some(at_most(most, why));
+        }
         knowledge
+    }
+
+    /// What is known where as many poses are proved as the geometry allows: there is no other one, not even on a curve.
+    fn met(search: &mut Search, most: usize, why: &str) -> PlatformKnowledge {
+        search.assembly.self_motion = 0;
+        search.keep_proved();
+        PlatformKnowledge { count: Some(at_most(most, why)), ..PlatformKnowledge::default() }
     }
 
     fn solve_in_high_precision<const LIMBS: usize>(&self, search: &mut Search, expected: usize) {

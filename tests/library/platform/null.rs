@@ -1,7 +1,8 @@
-//! Solutions with `N = 0` at legs of all lengths, beside the count of the poses modulo a prime at some legs.
+//! Solutions with `N = 0`, and with `x = 0`, at legs of all lengths, beside the count of the poses modulo a prime at some legs.
 
 use looproot::internal::benchmark::platform::sample::{PlatformSet, sample};
 use looproot::internal::elimination::platform_degree::{PlatformDegree, platform_degree};
+use looproot::internal::elimination::platform_far::far_solutions;
 use looproot::internal::elimination::platform_incidence::most_poses;
 use looproot::internal::elimination::platform_null::null_solutions;
 use looproot::internal::kinematics::platform::Platform;
@@ -70,7 +71,7 @@ fn the_bound_holds_where_points_and_directions_coincide_in_all_ways() {
         let width = 1 + trial % 3;
         let mut body = || points(std::array::from_fn(|_| std::array::from_fn(|_| random.random_range(-width..=width))));
         let platform = Exact { base: body(), plate: body() };
-        let null = null_solutions(&platform);
+        let null = null_solutions(&platform) + far_solutions(&platform);
         if let Some(PlatformDegree::Finite { poses: count, .. }) =
             platform_degree(&platform, &std::array::from_fn(|_| Rational::from(random.random_range(10..900))))
         {
@@ -96,4 +97,35 @@ fn nothing_is_taken_for_granted_where_solutions_form_curves() {
     assert_eq!(null_solutions(&Exact { base: near.clone(), plate: other.clone() }), 4);
     near[0][0] += Rational::from((1, 1_000_000_000_000_000_000_i64));
     assert_eq!(null_solutions(&Exact { base: near, plate: other }), 0);
+}
+
+/// A random point, in the plane z = 0 or not.
+fn point(is_plane: bool, random: &mut ChaCha8Rng) -> [Rational; 3] {
+    let mut number = || Rational::from((random.random_range(-40..=40), random.random_range(1..=3)));
+    [number(), number(), if is_plane { Rational::new() } else { number() }]
+}
+
+#[test]
+fn five_related_points_leave_as_few_poses_as_there_are() {
+    let mut random = ChaCha8Rng::seed_from_u64(6);
+    // A rotation by the quaternion (1, 2, 2, 4)/5, times a ratio, and an affine map of the plane.
+    let turn = |ratio: i32| [[-15, 0, 20], [16, -15, 12], [12, 20, 9]].map(|row| row.map(|x| x * ratio));
+    let flat = [[25, 10, 0], [-5, 40, 0], [0, 0, 25]];
+    for (map, is_plane, far) in
+        [(turn(1), false, 4), (turn(-1), false, 4), (turn(2), false, 4), (turn(-3), false, 4), (flat, true, 8)]
+    {
+        let base: [[Rational; 3]; 6] = std::array::from_fn(|_| point(is_plane, &mut random));
+        let image = |p: &[Rational; 3]| -> [Rational; 3] {
+            map.map(|row| row.iter().zip(p).map(|(a, x)| Rational::from(x * Rational::from((*a, 25)))).sum())
+        };
+        let mut plate = base.each_ref().map(image);
+        plate[3] = point(is_plane, &mut random);
+        let mut platform = Exact { base, plate };
+        assert_eq!(far_solutions(&platform), far, "{map:?}");
+        let count = poses(&platform, &mut random);
+        assert!(matches!(count, PlatformDegree::Finite { poses, .. } if poses == 40 - far), "{map:?}: {count:?}");
+        // One more point off by a little, and nothing is left of that.
+        platform.base[1][0] += Rational::from((1, 1_000_000_000_000_000_000_i64));
+        assert_eq!(far_solutions(&platform), 0, "{map:?}");
+    }
 }

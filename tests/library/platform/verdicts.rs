@@ -124,7 +124,7 @@ fn special_platforms_at_special_poses() {
 }
 
 /// The classes of random platforms.
-const CLASSES: [&str; 10] = [
+const CLASSES: [&str; 14] = [
     "general",
     "plane",
     "similar",
@@ -135,6 +135,10 @@ const CLASSES: [&str; 10] = [
     "plane and affine",
     "rings",
     "singular",
+    "five similar",
+    "five congruent",
+    "plane and five affine",
+    "mixed scales",
 ];
 
 type Points = [[Rational; 3]; 6];
@@ -181,16 +185,26 @@ fn geometry(draw: &mut Draw, class: &str) -> Platform<Rational> {
     let base = &platform.base;
     let ratio = Rational::from((1 + draw.choice(7), 2 + draw.choice(4)));
     let scaled = |points: Points| points.map(|p| p.map(|x| x * &ratio));
-    let plate = match class {
-        "similar" | "plane and similar" => scaled(image(&rotation(draw), base)),
-        "affine" | "plane and affine" => image(&std::array::from_fn(|_| draw.point()), base),
+    let mut plate = match class {
+        "similar" | "plane and similar" | "five similar" => scaled(image(&rotation(draw), base)),
+        "affine" | "plane and affine" | "plane and five affine" => image(&std::array::from_fn(|_| draw.point()), base),
         "mirrored" => image(&rotation(draw), base).map(|p| p.map(|x| -x)),
-        "congruent" => image(&rotation(draw), base),
+        "congruent" | "five congruent" => image(&rotation(draw), base),
         "singular" => towards_axis(draw, base),
         _ => platform.plate.clone(),
     };
     if class == "rings" {
         return Platform { base: ring(draw, 50.0), plate: ring(draw, 35.0) };
+    }
+    if class.contains("five") {
+        // One pair is off, along an axis in the plane if there is one.
+        plate[draw.choice(6)][draw.choice(2)] += Rational::from((1, 10_u64.pow(u32::try_from(draw.choice(12)).unwrap())));
+    }
+    if class == "mixed scales" {
+        // The whole plate, or one point of it.
+        let scale = Rational::from(10_u64.pow(4 + u32::try_from(draw.choice(5)).unwrap()));
+        let last = if draw.choice(2) == 0 { 6 } else { 1 };
+        plate[..last].iter_mut().flatten().for_each(|x| *x *= &scale);
     }
     Platform { base: platform.base, plate }
 }
