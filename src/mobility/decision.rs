@@ -303,8 +303,8 @@ impl Subject<'_> {
         };
         let (code, why) = if let Some(Local::Manifold { .. }) = first.map(|c| &c.local) {
             let why = format!(
-                "at {place} the screws of the joints that can move span the Lie algebra of a group of motions, so that {} \
-                     variables less screw rank {rank} move (theorem 1)",
+                "at {place} the screws of the joints that can move span the Lie algebra of a group of motions, or joints of one axis undo \
+                     each other, so that {} variables less screw rank {rank} move (theorem 1)",
                 self.variables.len()
             );
             (Code::GroupOfMotions, why)

@@ -10,13 +10,16 @@ use crate::kinematics::screw_system::{Screw, ScrewSystem};
 /// position of any chain of up to six can have.
 pub const MOST_SOLUTIONS: usize = 16;
 
+/// Joints of the longest loop in which joints on common axes are looked for: all comparisons are short up to it.
+const MOST_FOLDED: usize = 16;
+
 /// The set of positions near one position of a chain.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Local {
     /// The chain does not close here.
     Open,
     /// The screws of the joint variables that can move span the Lie algebra of a group of motions, or the algebras of two groups
-    /// in two arcs of the loop: the positions near this one form a smooth manifold of this dimension, the number of joint
+    /// in two arcs of the loop, or stand in pairs on common axes: the positions near this one form a smooth manifold of this dimension, the number of joint
     /// variables minus the rank.
     Manifold {
         /// Its dimension.
@@ -95,7 +98,7 @@ impl<F: Field> Germ<F> {
         } else if let [free] = free[..] {
             germ.local = expansion.solve(&solved, &left_over, free, MOST_SOLUTIONS / conjugates);
             germ.series = expansion.series;
-        } else if germ.is_product_of_groups() {
+        } else if germ.is_product_of_groups() || (F::PIVOT_ZERO == 0.0 && germ.folds() == n - rank) {
             germ.local = Local::Manifold { dimension: n - rank };
         } else if F::PIVOT_ZERO == 0.0
             && let Some(order) = multiplicity(position)
@@ -125,6 +128,28 @@ impl<F: Field> Germ<F> {
     /// Whether the links move in a group: see [`Self::moves_in_groups`], with one arc.
     fn is_group(&self) -> bool {
         self.rank == 6 || self.moves_in_groups(|_| false)
+    }
+
+    /// The most arcs that can be drawn inside the loop between joints of one axis, or translations of one direction, without crossings: in
+    /// each the joint at one end undoes what that at the other end does. 0 for long loops.
+    fn folds(&self) -> usize {
+        let n = self.screws.len();
+        if n > MOST_FOLDED {
+            return 0;
+        }
+        let are_one = |a: usize, b: usize| {
+            let (a, b) = (&self.screws[a], &self.screws[b]);
+            (0..6).all(|i| (0..i).all(|j| a[i].mul(&b[j]).sub(&a[j].mul(&b[i])).is_zero()))
+        };
+        // Of the joints from one to before another.
+        let mut most = vec![vec![0; n + 1]; n + 1];
+        for first in (0..n).rev() {
+            for end in first + 2..=n {
+                let arcs = (first + 1..end).filter(|k| are_one(first, *k)).map(|k| most[first + 1][k] + 1 + most[k][end]);
+                most[first][end] = arcs.chain([most[first + 1][end]]).max().unwrap_or(0);
+            }
+        }
+        most[0][n]
     }
 
     /// Whether the loop has two arcs whose links each move in a group of their own.

@@ -14,6 +14,11 @@ use std::f64::consts::TAU;
 
 /// Rounds in 384 bits without a root that settles after which none will.
 const PATIENCE: usize = 60;
+/// Corrections that shrink no more have reached the noise of the coefficients.
+const STALLED: f64 = 0.5;
+/// Where they have, an approximation belongs to one root if they are smaller than this part of the distance to the nearest other one: of a
+/// crowd of m roots the distance loses m - 1 times its digits.
+const APART: f64 = 1e-9;
 /// No fewer bits than any multiprecision number has.
 const MOST_BITS: u32 = 1024;
 
@@ -41,6 +46,7 @@ pub fn polynomial_roots<R: Extended>(polynomial: &Univariate<R>) -> Option<Vec<C
     // More digits separate nearer roots, which approximations approach by a constant factor per step only.
     let patience = PATIENCE * (R::BITS as usize).div_ceil(384).pow(2);
     let mut open = vec![true; degree];
+    let mut before = vec![f64::INFINITY; degree];
     let mut idle = 0;
     while idle < patience && open.contains(&true) {
         idle += 1;
@@ -68,13 +74,23 @@ pub fn polynomial_roots<R: Extended>(polynomial: &Univariate<R>) -> Option<Vec<C
             let factor = if factor.is_finite() { factor } else { Complex::new(1.0, 0.0) };
             let correction = newton.mul(&extended(factor));
             roots[k] = x.sub(&correction);
-            if correction.size() <= settled * roots[k].size() {
+            let size = correction.size();
+            let is_at_rest = size <= settled * roots[k].size()
+                || (size >= STALLED * before[k] && size < APART * nearest(&roots, k));
+            before[k] = size;
+            if is_at_rest {
                 open[k] = false;
                 idle = 0;
             }
         }
     }
     Some(roots.into_iter().zip(open).filter(|(_, open)| !open).map(|(root, _)| root).collect())
+}
+
+/// The distance of an approximation from the nearest other one.
+fn nearest<R: Extended>(roots: &[Complex<R>], k: usize) -> f64 {
+    let others = roots.iter().enumerate().filter(|(j, _)| *j != k);
+    others.map(|(_, other)| other.sub(&roots[k]).size()).fold(f64::INFINITY, f64::min)
 }
 
 /// Returns approximations of all roots, with crowded ones separated as far as the digits allow.
@@ -179,6 +195,22 @@ mod tests {
         ];
         for wanted in expected {
             assert!(roots.iter().any(|root| root.sub(&wanted).size() < 1e-60), "{:?}", narrowed(wanted));
+        }
+    }
+
+    #[test]
+    fn a_crowd_of_simple_roots_is_told_apart() {
+        // Eight roots 1e-12 apart take 84 of 115 digits; the others are right.
+        let unit = 1_000_000_000_000;
+        let mut polynomial = Univariate::constant(long(1, 1));
+        for k in 0..8 {
+            polynomial = polynomial.mul(&Univariate::new(vec![long(-unit - k, unit.cast_unsigned()), long(1, 1)]));
+        }
+        let roots = polynomial_roots(&polynomial).unwrap();
+        assert_eq!(roots.len(), 8);
+        for k in 0..8 {
+            let wanted = Complex::new(long(unit + k, unit.cast_unsigned()), LongFloat::zero());
+            assert!(roots.iter().any(|root| root.sub(&wanted).size() < 1e-22), "{k}");
         }
     }
 
