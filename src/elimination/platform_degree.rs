@@ -29,7 +29,8 @@ pub enum PlatformDegree {
         curves: bool,
     },
     /// A curve of poses, or more: a self-motion, real or complex. It is recognised by a count that still grows with the degree at
-    /// which it is taken, up to degree 12; in all known classes of special geometry a finite count is constant by then.
+    /// which it is taken, up to degree 10; in almost all known classes of special geometry a finite count is constant by then (not where five
+    /// pairs of points are congruent).
     Infinite {
         /// The largest dimension of a family of poses, complex ones included: this many general quadrics leave finitely many of
         /// them.
@@ -272,8 +273,7 @@ pub(super) fn echelon<A: Arithmetic>(
 }
 
 /// Powers of N that remove the solutions with `N = 0`, with the degree from which the rest is constant, in the order tried.
-/// The third one serves platforms of which five pairs of points are congruent.
-const ATTEMPTS: [(usize, usize); 3] = [(1, 5), (2, 5), (3, 5)];
+const ATTEMPTS: [(usize, usize); 2] = [(1, 5), (2, 5)];
 
 /// Returns the multiplication matrices where solutions with `N = 0` form curves, on the image of multiplication by a power of N;
 /// `None` where that image grows with the degree (a curve of poses), or `inverse` does not exist for a number that is not 0.

@@ -2,8 +2,7 @@
 //! are missing of the 40 of six general legs. docs/platforms.md, theorem 6, has the proof.
 //!
 //! Such a solution is a vector `(s, p, q)` with `K (s, p, q) = 0`, `p.p = 0` and `q.q = 0`. Those that are found here belong to a kernel of
-//! K of two dimensions on which `p.p` and `q.q` are proportional (five points of the plate are similar to those of the base), or to one of
-//! three dimensions of a plane base and a plane plate.
+//! K of two dimensions on which `p.p` and `q.q` are proportional: five points of the plate are similar to those of the base.
 
 use crate::algebra::echelon::Echelon;
 use crate::algebra::modp::{ModP, PRIME_61};
@@ -34,18 +33,14 @@ pub fn far_solutions(platform: &Platform<Rational>) -> usize {
     let Some(modular) = platform.map(Residue::from_rational) else { return 0 };
     let legs = linear_legs(&modular);
     let rank = Echelon::of(rows(&legs.matrix), UNKNOWNS).rank();
-    // A rank modulo the prime is at most the true one, and the kernel is 3-dimensional or less where there are finitely many.
-    if !(4..=5).contains(&rank) {
+    // A rank modulo the prime is at most the true one.
+    if rank != UNKNOWNS - 2 {
         return 0;
     }
     let kernel = Echelon::of(rows(&linear_legs(platform).matrix), UNKNOWNS).null_space();
-    let points = match kernel.as_slice() {
-        [one, other] => of_pencil(one, other),
-        [_, _, _] => of_planes(platform, &kernel),
-        _ => None,
-    };
+    let [one, other] = kernel.as_slice() else { return 0 };
+    let points = of_pencil(one, other).unwrap_or_default();
     let far = Far { legs: &legs };
-    let points = points.unwrap_or_default();
     let counted = points.iter().filter(|point| far.is_isolated(point)).count();
     // Points that coincide modulo the prime may be one.
     let are_apart = (0..points.len()).all(|k| (0..k).all(|l| !are_parallel(&points[k], &points[l])));
@@ -78,7 +73,7 @@ fn sum(first: &[Root], factor: &Root, second: &[Root]) -> Vec<Root> {
     first.iter().zip(second).map(|(a, b)| a.add(&factor.mul(b))).collect()
 }
 
-/// Both solutions in a kernel of two dimensions, where `p.p` and `q.q` are proportional; `None` where they are not.
+/// Both solutions in the kernel, where `p.p` and `q.q` are proportional; `None` where they are not.
 fn of_pencil(one: &[Rational], other: &[Rational]) -> Option<Vec<Vec<Root>>> {
     let ([p, q], [next_p, next_q]) = (parts(one), parts(other));
     let form = |a: &Vector<Rational>, b: &Vector<Rational>| [dot(a, a), dot(a, b), dot(b, b)];
@@ -97,51 +92,6 @@ fn of_pencil(one: &[Rational], other: &[Rational]) -> Option<Vec<Vec<Root>>> {
         sum(&one, &above.mul(&over), &other)
     };
     Some(vec![zero(1), zero(-1)])
-}
-
-/// The four solutions in a kernel of three dimensions of plane points: p and q along the normals of the planes are among it.
-fn of_planes(platform: &Platform<Rational>, kernel: &[Vec<Rational>]) -> Option<Vec<Vec<Root>>> {
-    let normals = [normal(&platform.base)?, normal(&platform.plate)?];
-    // The vector of the kernel whose p and q lie in the planes: of three, up to the normals, one is left.
-    let conditions = (0..2).map(|side| {
-        kernel.iter().map(|vector| dot(&parts(vector)[side], &normals[side])).collect::<Vec<Rational>>()
-    });
-    let weights = Echelon::of(conditions.collect(), kernel.len()).null_space();
-    let [weights] = weights.as_slice() else { return None };
-    let flat: Vec<Rational> = (0..UNKNOWNS)
-        .map(|k| kernel.iter().zip(weights).map(|(vector, weight)| Rational::from(&vector[k] * weight)).sum())
-        .collect();
-    let along = |side: usize| -> Option<Root> {
-        let within = &parts(&flat)[side];
-        let ratio = dot(within, within) / dot(&normals[side], &normals[side]);
-        Some(Residue::from_rational(&-ratio)?.square_root())
-    };
-    let lengths = [along(0)?, along(1)?];
-    let image = images(&flat)?;
-    // Along the normals s keeps the equations of the legs.
-    let heights = [dot(&platform.base[0], &normals[0]) * 2_u32, dot(&platform.plate[0], &normals[1]) * -2_i32];
-    let mut points = Vec::new();
-    for signs in [[1, 1], [1, -1], [-1, 1], [-1, -1]] {
-        let mut point = image.clone();
-        for side in 0..2 {
-            let length = lengths[side].mul(&root(Residue::from_integer(signs[side])));
-            point[0] = point[0].add(&length.mul(&root(Residue::from_rational(&heights[side])?)));
-            for k in 0..3 {
-                let normal = root(Residue::from_rational(&normals[side][k])?);
-                point[1 + 3 * side + k] = point[1 + 3 * side + k].add(&length.mul(&normal));
-            }
-        }
-        points.push(point);
-    }
-    Some(points)
-}
-
-/// A normal of the plane of all points; `None` where they lie in no plane, or on one line.
-fn normal(points: &[Vector<Rational>; 6]) -> Option<Vector<Rational>> {
-    let side = |k: usize| -> Vector<Rational> { std::array::from_fn(|c| Rational::from(&points[k][c] - &points[0][c])) };
-    let pairs = (1..6).flat_map(|j| (1..j).map(move |i| (i, j)));
-    let normal = pairs.map(|(i, j)| cross(&side(i), &side(j))).find(|n| n.iter().any(|x| *x != 0))?;
-    (1..6).all(|k| dot(&side(k), &normal) == 0).then_some(normal)
 }
 
 /// A binary quadratic form `a y^2 + b y z + c z^2`.
@@ -207,28 +157,4 @@ fn are_coprime([a, b, c]: &Binary, [d, e, f]: &Binary) -> bool {
     let minor = |x: &Root, y: &Root, z: &Root, w: &Root| x.mul(w).sub(&y.mul(z));
     let (outer, low, high) = (minor(a, c, d, f), minor(a, b, d, e), minor(b, c, e, f));
     !outer.mul(&outer).sub(&low.mul(&high)).is_zero()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::closure::study::Four;
-
-    /// The kernel of `x q = p x` holds what it should: x with a product of one vector on either side.
-    #[test]
-    fn rotations_between_isotropic_vectors_form_a_plane() {
-        let number = |re: i32, im: i32| Complex { re: Residue::from_integer(re), im: Residue::from_integer(im) };
-        let p = [number(3, 0), number(4, 0), number(0, 5)];
-        let q = [number(0, 13), number(5, 0), number(12, 0)];
-        let plane = kernel_of_rotations(&p, &q);
-        assert_eq!(plane.len(), 2);
-        let as_four = |v: &Vec<Root>| -> Four<Root> { [v[0], v[1], v[2], v[3]] };
-        for x in plane.iter().map(as_four) {
-            let (before, behind) = (left(&p), right(&q));
-            for i in 0..4 {
-                let side = |m: &[Four<Root>; 4]| (0..4).fold(Root::zero(), |sum, k| sum.add(&m[i][k].mul(&x[k])));
-                assert!(side(&before).sub(&side(&behind)).is_zero());
-            }
-        }
-    }
 }

@@ -227,7 +227,8 @@ fn special_arms_do_not_contradict_the_exact_side() {
 fn special_arms_with_translations_do_not_contradict_the_exact_side() {
     let count = std::env::var("LOOPROOT_SPECIAL_ARMS").ok().and_then(|n| n.parse().ok()).unwrap_or(12);
     let both = (0..count).flat_map(|seed| [(seed, 1), (seed, 2)]);
-    let faults: Vec<String> = both.filter_map(|(seed, translations)| contradiction(seed, translations, &LENGTHS)).collect();
+    let faults: Vec<String> =
+        both.filter_map(|(seed, translations)| contradiction(seed, translations, &LENGTHS)).collect();
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 

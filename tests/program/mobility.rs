@@ -251,7 +251,8 @@ fn spherical_joints_have_no_singular_position() {
 #[test]
 fn joints_on_common_axes_undo_each_other() {
     let axes = [("[1, 4, 8]", "[2, -2, 0]"), ("[1, 4, 8]", "[3, -2, 2]"), ("[0, 0, 1]", "[3, -2, 2]")];
-    let joints: Vec<(&str, &str, &str)> = axes.iter().chain(axes.iter().rev()).map(|(axis, at)| ("R", *axis, *at)).collect();
+    let joints: Vec<(&str, &str, &str)> =
+        axes.iter().chain(axes.iter().rev()).map(|(axis, at)| ("R", *axis, *at)).collect();
     let answer = mobility(&screws(&joints)).unwrap();
     assert_eq!((answer.mobility, answer.proof), (Some(3), Proof::Proved), "{}", answer.reason);
     assert_eq!(answer.code, Code::GroupOfMotions);

@@ -23,8 +23,11 @@ const WEIGHTS: [i32; 3] = [1, -2, 3];
 const NEARLY_REAL: f64 = 1e-3;
 
 /// Displacements of the points if the border basis of the platform itself does not exist, in units of its size: these
-/// powers of 1/2 in turn. Poses move by about as much. Every degree of the border basis costs about that many of the 384 bits.
+/// powers of 1/2 in turn. Poses move by about as much. Every degree of the border basis costs about that many of the 384 bits; longer
+/// numbers have room for as many times longer ones.
 const DISTURBANCES: [u32; 2] = [24, 14];
+/// Words of the numbers that these are for.
+const WORDS: u32 = 6;
 
 /// Returns points near the poses of a platform, one of each conjugate pair: Study's parameters in the frame of polishing.
 /// Multiple solutions without a pose (`N = 0`) are left out.
@@ -35,7 +38,8 @@ pub fn starts<const LIMBS: usize>(
 ) -> Vec<Eight<Long<LIMBS>>> {
     let of = |platform: &Platform<Rational>| (0..2).find_map(|choice| long_algebra::<LIMBS>(platform, squares, choice));
     // Solutions with N = 0 may lie on curves, which a neighbouring platform does not have.
-    let beside = || DISTURBANCES.into_iter().find_map(|bits| of(&disturbed(platform, frame.scale, bits)));
+    let longer = |bits: u32| bits * u32::try_from(LIMBS).unwrap_or(WORDS) / WORDS;
+    let beside = || DISTURBANCES.into_iter().find_map(|bits| of(&disturbed(platform, frame.scale, longer(bits))));
     let algebra = of(platform).or_else(beside);
     algebra.map_or_else(Vec::new, |algebra| {
         let hessenberg = Hessenberg::of(combined(&algebra.products));

@@ -78,6 +78,9 @@ impl ExactSide<'_> {
         let is_by_paths = matches!(search.assembly.route, Route::Homotopy { .. });
         if let Some((most, why)) = self.incidence.filter(|_| is_by_paths) {
             self.solve_in_high_precision::<LIMBS>(search, most);
+            if search.proved() < most {
+                self.solve_in_high_precision::<MORE_LIMBS>(search, most);
+            }
             if search.proved() == most {
                 return Self::met(search, most, why);
             }

@@ -198,7 +198,8 @@ fn geometry(draw: &mut Draw, class: &str) -> Platform<Rational> {
     }
     if class.contains("five") {
         // One pair is off, along an axis in the plane if there is one.
-        plate[draw.choice(6)][draw.choice(2)] += Rational::from((1, 10_u64.pow(u32::try_from(draw.choice(12)).unwrap())));
+        let [leg, axis] = [6, 2].map(|most| usize::try_from(draw.choice(most)).unwrap());
+        plate[leg][axis] += Rational::from((1, 10_u64.pow(u32::try_from(draw.choice(12)).unwrap())));
     }
     if class == "mixed scales" {
         // The whole plate, or one point of it.
@@ -270,6 +271,12 @@ fn check_list(name: &str, solution: &Solution, pose: Option<&Motion<Rational>>) 
             turned.max(moved) < 1e-5
         };
         assert!(real.iter().any(near), "{name}: the planted pose is missing: {}", solution.verdict.reason);
+        // Its position is within the radius of a mode, in metres; the planted one is rounded to f64.
+        let size = pose[9..].iter().fold(1.0_f64, |size, x| size.max(x.abs()));
+        let beyond =
+            |mode: &&FullMode| (0..3).map(|k| (mode.q[4 + k].re - pose[9 + k]).abs()).fold(0.0, f64::max) - mode.radius;
+        let beyond = real.iter().map(beyond).fold(f64::INFINITY, f64::min);
+        assert!(beyond <= 2e-16 * size, "{name}: {beyond:e} beyond the radius");
     }
 }
 
