@@ -305,7 +305,7 @@ impl Frame {
         let above = self.scale * (product + rounding * x * y) + plate * (square + rounding * x * x);
         let below = square + rounding * x * x;
         let norm = norm(study).norm() - below;
-        let moved = self.position(study).map(|z| z.norm()).into_iter().fold(0.0, f64::max);
+        let moved = self.position(study).map(Complex::norm).into_iter().fold(0.0, f64::max);
         // NaN becomes infinite.
         if norm > 0.0 { (above + (moved + base) * below) / norm + rounding * (moved + base) } else { f64::INFINITY }
     }

@@ -113,7 +113,7 @@ fn five_related_points_leave_as_few_poses_as_there_are() {
         let map = turn(ratio);
         let base: [[Rational; 3]; 6] = std::array::from_fn(|_| point(&mut random));
         let image = |p: &[Rational; 3]| -> [Rational; 3] {
-            map.map(|row| row.iter().zip(p).map(|(a, x)| Rational::from(x * Rational::from((*a, 25)))).sum())
+            map.map(|row| row.iter().zip(p).map(|(a, x)| x * Rational::from((*a, 25))).sum())
         };
         let mut plate = base.each_ref().map(image);
         plate[3] = point(&mut random);
