@@ -1,26 +1,46 @@
 //! Arms with a spherical wrist or three parallel axes: all solutions by closed forms, if as many are certified as the geometry
 //! allows.
 
+use super::lane_finish::Finish;
+use super::mode::{Mode, are_all_apart};
 use super::search::Search;
-use crate::solve::dense::{inverse, times};
-use crate::solve::newton::{Polished, Six, closure};
-use crate::solve::scalar::Scalar;
+use crate::algebra::double_double::DoubleDouble;
+use crate::certify::from_pairs;
+use crate::kinematics::closed_loop::ClosedLoop;
+use crate::solve::decoupled::{Candidates, MOST, Pairs};
+use crate::solve::lane_closure::{Angular, normalised};
+use crate::solve::lanes::{ComplexLanes, Lanes, WIDTH};
+use crate::solve::scalar::{Scalar, extended};
+use num_complex::Complex;
+use pulp::{Arch, Simd, WithSimd};
+use std::cell::LazyCell;
 
-/// A closure error no larger than this is rounding: a Newton step does not improve it.
-const CLOSED: f64 = 2e-15;
+/// A loop of exact constants, rounded once.
+type Exact = ClosedLoop<DoubleDouble>;
+/// The same, made where it is first asked for.
+type Lazy<'a> = LazyCell<Option<Exact>, &'a dyn Fn() -> Option<Exact>>;
 
 impl Search<'_> {
     /// Lists the candidates of the closed form, if there is one. Returns whether as many are proved as the loop can have;
-    /// otherwise it lists nothing and the pencils decide.
-    pub(super) fn by_closed_form(&mut self, most: &dyn Fn(usize) -> usize) -> bool {
+    /// otherwise it lists nothing and the pencils decide. `exact` gives the loop with constants rounded once from exact ones, scaled.
+    pub(super) fn by_closed_form(
+        &mut self,
+        most: &dyn Fn(usize) -> usize,
+        exact: &dyn Fn() -> Option<Exact>,
+    ) -> bool {
         let Some(decoupled) = self.decoupled else { return false };
         let candidates = decoupled.candidates(self.closed);
         if candidates.count() < most(candidates.count()) {
             return false;
         }
-        let (real, complex) = (candidates.real(), candidates.complex());
-        let all = real.iter().all(|start| self.confirm(start)) && complex.iter().all(|start| self.confirm(start));
-        if all && self.is_full(self.proved(), most) {
+        let finish = Finish::new(self.closed, self.gap_rounding);
+        let modes = &mut self.assembly.modes;
+        let [real, complex] = Arch::new().dispatch(SideBySide { finish, candidates: &candidates, modes });
+        // What is not proved side by side is looked at alone.
+        let exact = LazyCell::new(exact);
+        let all = self.alone(candidates.real(), &real, &exact) && self.alone(candidates.complex(), &complex, &exact);
+        let variables = &self.closed.variables;
+        if all && are_all_apart(variables, &self.assembly.modes) && self.is_full(self.proved(), most) {
             self.assembly.all_resolved = true;
             return true;
         }
@@ -28,28 +48,107 @@ impl Search<'_> {
         false
     }
 
-    /// Improves a candidate by one Newton step and lists it with its certificate if it closes. Returns whether it does.
-    fn confirm<S: Scalar>(&mut self, start: &Six<S>) -> bool {
-        let mut here = closure(self.closed, start);
-        let raw = here.defect;
-        let Some(matrix) = inverse(&here.jacobian) else { return false };
-        let (mut unknowns, mut moved) = (*start, 0.0);
-        if !(raw <= CLOSED) {
-            let step = times(&matrix, &here.residual);
-            let next: Six<S> = std::array::from_fn(|k| unknowns[k].sub(&step[k]));
-            let there = closure(self.closed, &next);
-            if there.defect < raw {
-                moved = step.iter().map(|x| x.size()).fold(0.0, f64::max);
-                (unknowns, here) = (next, there);
+    /// Lists the candidates that are not done, by longer numbers. Returns whether all are proved.
+    fn alone<S: Scalar>(&mut self, starts: &[Pairs<S>], done: &[bool; MOST], exact: &Lazy<'_>) -> bool {
+        starts.iter().zip(done).all(|(pairs, done)| {
+            if *done {
+                return true;
+            }
+            let start = pairs.map(|(cos, sin)| S::angle_of(cos, sin).to_complex());
+            let mode = self.proved_mode(&start).or_else(|| {
+                // Near singular positions the rounding of the pose to f64 moves a solution beyond its neighbour.
+                let exact = exact.as_ref()?;
+                let long = |x: S| extended::<DoubleDouble>(x.to_complex());
+                self.refined_mode(from_pairs(exact, &pairs.map(|(cos, sin)| (long(cos), long(sin))))?)
+            });
+            mode.filter(|mode| mode.real == S::REAL).is_some_and(|mode| self.list(mode))
+        })
+    }
+
+    /// Lists a proved solution, and its conjugate. Returns true.
+    fn list(&mut self, mode: Mode) -> bool {
+        if !mode.real {
+            self.assembly.modes.push(mode.conjugate());
+        }
+        self.assembly.modes.push(mode);
+        true
+    }
+}
+
+/// Candidates that are polished and proved side by side; which of them are is the result, real ones first.
+struct SideBySide<'a> {
+    finish: Finish<'a>,
+    candidates: &'a Candidates,
+    modes: &'a mut Vec<Mode>,
+}
+
+/// The numbers of a pair: real and imaginary part of the cosine, then of the sine.
+trait Parts {
+    fn parts(&self) -> [f64; 4];
+}
+
+impl Parts for (f64, f64) {
+    fn parts(&self) -> [f64; 4] {
+        [self.0, 0.0, self.1, 0.0]
+    }
+}
+
+impl Parts for (Complex<f64>, Complex<f64>) {
+    fn parts(&self) -> [f64; 4] {
+        [self.0.re, self.0.im, self.1.re, self.1.im]
+    }
+}
+
+impl SideBySide<'_> {
+    /// Polishes and proves candidates, register by register.
+    #[inline(always)]
+    fn list<S: Simd, N: Angular<S>, P: Parts>(
+        &mut self,
+        one: Lanes<S>,
+        starts: &[[P; 6]],
+    ) -> [bool; MOST] {
+        let mut done = [false; MOST];
+        for (chunk, starts) in starts.chunks(S::F64_LANES).enumerate() {
+            // Lanes that are not used do what the first one does.
+            let mut rows = [[[0.0; WIDTH]; 4]; 6];
+            for lane in 0..S::F64_LANES {
+                for (row, pair) in rows.iter_mut().zip(&starts[if lane < starts.len() { lane } else { 0 }]) {
+                    for (row, x) in row.iter_mut().zip(pair.parts()) {
+                        row[lane] = x;
+                    }
+                }
+            }
+            let mut pairs = [[N::of(one); 2]; 6];
+            for (pair, row) in pairs.iter_mut().zip(&rows) {
+                let [a, b, c, d] = row;
+                let cos = N::from_parts(one.loaded(a), one.loaded(b));
+                *pair = normalised([cos, N::from_parts(one.loaded(c), one.loaded(d))]);
+            }
+            let found = self.finish.proved(pairs, one);
+            for lane in 0..starts.len() {
+                let Some(mode) = found.mode(lane) else { continue };
+                done[chunk * S::F64_LANES + lane] = true;
+                if !mode.real {
+                    self.modes.push(mode.conjugate());
+                }
+                self.modes.push(mode);
             }
         }
-        here.constant_is_off(5, self.gap_rounding);
-        if !(here.defect < super::limits::RAW) {
-            return false;
-        }
-        let before = self.proved();
-        self.record(&Polished { unknowns, closure: here, inverse: Some(matrix), raw, moved });
-        self.proved() > before
+        done
+    }
+}
+
+impl WithSimd for SideBySide<'_> {
+    type Output = [[bool; MOST]; 2];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, simd: S) -> [[bool; MOST]; 2] {
+        let one = Lanes::splat(simd, 1.0);
+        let candidates = self.candidates;
+        [
+            self.list::<S, Lanes<S>, _>(one, candidates.real()),
+            self.list::<S, ComplexLanes<S>, _>(one, candidates.complex()),
+        ]
     }
 }
 

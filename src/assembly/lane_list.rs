@@ -1,15 +1,14 @@
 //! The real solutions of one pose with their proofs, side by side in vector registers.
 //!
 //! The steps are those of [`real_list`](super::real_list): all zeros of a determinant on the circle of a hidden angle, at each of them the
-//! kernel, the other angles, and a few steps of Newton's method. Then every solution is certified as in [`certify`](crate::certify), with
-//! bounds of the norms by distances: the rows of a rotation have sums of at most the root of 3. Where a step is not certain, nothing is said.
+//! kernel and the other angles. Then [every solution is polished and certified](super::lane_finish). Where a step is not certain, nothing is
+//! said.
 
-use super::limits;
-use super::mode::{Assembly, Hits, Mode, wrapped};
+use super::lane_finish::{Finish, Found};
+use super::mode::Assembly;
 use super::prepared::PreparedCut;
 use super::real_list::distinct_real;
 use crate::algebra::double_double::DoubleDouble;
-use crate::certify::Certificate;
 use crate::certify::circle_lanes::{Isolated, Waiting, fourier, isolated};
 use crate::certify::circle_zeros::SAMPLES;
 use crate::certify::closure_lanes::{Brackets, LaneColumns, LaneRows};
@@ -18,29 +17,10 @@ use crate::closure::woernle_lee::MarkedLine;
 use crate::elimination::cut::{Cut, Hidden};
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::kinematics::motion::Motion;
-use crate::solve::lane_closure::{
-    ANGLE_ERROR, LaneClosure, Pairs, angle_of, lane_closure, lane_inverse, normalised, turned_back,
-};
-use crate::solve::lanes::{Lanes, Mask, Row, WIDTH};
-use num_complex::Complex;
+use crate::solve::lane_closure::{Pairs, normalised};
+use crate::solve::lanes::Lanes;
 use pulp::{Arch, Simd, WithSimd};
 
-/// Half a unit in the last place of 1.
-const ROUNDOFF: f64 = f64::EPSILON / 2.0;
-/// The root of 3 and a margin: the row-sum norm of a rotation.
-const ROOT_3: f64 = 1.7321;
-/// The root of 2 and a margin.
-const ROOT_2: f64 = 1.4143;
-/// As in [`certify`](crate::certify): roundings per step of the product, and the margin on bounds computed in f64.
-const ROUNDINGS: f64 = 70.0;
-const MARGIN: f64 = 1.01;
-/// Newton's steps with the inverse of the first place: each gains the digits that the first one gained.
-const STEPS: usize = 5;
-/// Closure errors below this are rounding.
-const ROUNDING: f64 = 4e-15;
-/// The squares of cosine and sine add up to 1 within so much: then each is off by 8 half units in the last place at most, which
-/// [`ROUNDINGS`] holds.
-const OFF_CIRCLE: f64 = 16.0 * ROUNDOFF;
 /// A cut with a hidden angle, prepared for many poses.
 struct LaneCut {
     cut: Cut,
@@ -97,26 +77,14 @@ impl LaneList {
         workspace: &mut LaneWorkspace,
         assembly: &mut Assembly,
     ) -> bool {
-        let length = |motion: &Motion<f64>| motion.translation.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let length = closed.constants.iter().map(length).sum::<f64>().max(1.0);
+        let finish = Finish::new(closed, gap_rounding);
         self.cuts.iter().any(|cut| {
             assembly.modes.clear();
-            let pose = PoseOf { cut, closed, off, blur, gap_rounding, length };
+            let pose = PoseOf { cut, closed, off, blur, finish };
             let is_found = self.arch.dispatch(Task { pose, workspace, assembly });
             is_found && distinct_real(&closed.variables, &assembly.modes) == Some(assembly.modes.len())
         })
     }
-}
-
-/// The lanes of the solutions of one register.
-#[derive(Clone, Copy)]
-struct Found {
-    angles: [Row; 6],
-    radius: Row,
-    isolation: Row,
-    turn: Row,
-    shift: Row,
-    condition: Row,
 }
 
 /// Memory for one pose.
@@ -143,9 +111,7 @@ struct PoseOf<'a> {
     closed: &'a ClosedLoop<f64>,
     off: f64,
     blur: f64,
-    gap_rounding: f64,
-    /// The length of all links, at least 1: errors of translations are measured by it.
-    length: f64,
+    finish: Finish<'a>,
 }
 
 /// The search for the solutions of a pose.
@@ -219,32 +185,11 @@ impl WithSimd for Task<'_> {
             let found = place.solutions(simd, chunk);
             let lanes = (count - chunk * S::F64_LANES).min(S::F64_LANES);
             for lane in 0..lanes {
-                let Some(mode) = self.pose.mode(&found, lane) else { return false };
+                let Some(mode) = found.mode(lane) else { return false };
                 self.assembly.modes.push(mode);
             }
         }
         true
-    }
-}
-
-impl PoseOf<'_> {
-    /// Returns the certified solution of a lane; `None` where there is no proof.
-    fn mode(&self, found: &Found, lane: usize) -> Option<Mode> {
-        let (radius, isolation) = (found.radius[lane] + ANGLE_ERROR, found.isolation[lane] - ANGLE_ERROR);
-        // NaN fails. What is known so badly is left to longer numbers.
-        if !(radius <= isolation && radius < limits::LONE_RADIUS) {
-            return None;
-        }
-        let (turn, shift) = (found.turn[lane], found.shift[lane] / self.length);
-        Some(Mode {
-            unknowns: std::array::from_fn(|j| Complex::from(wrapped(found.angles[j][lane]))),
-            real: true,
-            multiplicity: 1,
-            residual: if turn > shift { turn } else { shift },
-            condition: found.condition[lane],
-            certificate: Some(Certificate { radius, isolation, proved: radius }),
-            hits: Hits::first(0),
-        })
     }
 }
 
@@ -299,12 +244,12 @@ impl Place<'_> {
     fn solutions<S: Simd>(&self, simd: S, chunk: usize) -> Found {
         let hidden = self.zeros.near(simd, self.fourier, chunk);
         let pairs = self.in_loop_order(&self.pairs(hidden));
-        self.proved(pairs)
+        self.of.finish.proved(pairs, Lanes::splat(simd, 1.0))
     }
 
     /// Returns the unknowns of the cut from the hidden one.
     #[inline(always)]
-    fn pairs<S: Simd>(&self, hidden: [Lanes<S>; 2]) -> Pairs<S> {
+    fn pairs<S: Simd>(&self, hidden: [Lanes<S>; 2]) -> Pairs<Lanes<S>> {
         let cut = self.of.cut;
         let [a, b, c, d] = Brackets::of(&self.columns.at(hidden[0], hidden[1])).kernel();
         let half = longer([a, c], [b, d]);
@@ -352,7 +297,7 @@ impl Place<'_> {
 
     /// Returns the unknowns in the order and direction of the loop.
     #[inline(always)]
-    fn in_loop_order<S: Simd>(&self, pairs: &Pairs<S>) -> Pairs<S> {
+    fn in_loop_order<S: Simd>(&self, pairs: &Pairs<Lanes<S>>) -> Pairs<Lanes<S>> {
         let cut = self.of.cut.cut;
         let mut ordered = *pairs;
         for (j, [cos, sin]) in pairs.iter().enumerate() {
@@ -360,158 +305,12 @@ impl Place<'_> {
         }
         ordered
     }
-
-    /// Polishes solutions and proves them.
-    #[inline(always)]
-    fn proved<S: Simd>(&self, mut pairs: Pairs<S>) -> Found {
-        let constants = &self.of.closed.constants;
-        let mut here = lane_closure(constants, &pairs);
-        let inverse = lane_inverse(&here.jacobian);
-        let limit = here.turn.like(ROUNDING);
-        let far = here.turn.like(ROUNDING * self.of.length);
-        for step in 0..STEPS {
-            for j in 0..6 {
-                let mut sum = inverse[j][0] * here.residual[0];
-                for i in 1..6 {
-                    sum = inverse[j][i].fma(here.residual[i], sum);
-                }
-                pairs[j] = turned_back(pairs[j], sum);
-            }
-            here = lane_closure(constants, &pairs);
-            let is_closed = here.turn.at_most(limit).and(here.shift.at_most(far));
-            if step + 1 < STEPS && is_closed.all() {
-                break;
-            }
-        }
-        let mut found = Found {
-            angles: [[0.0; WIDTH]; 6],
-            radius: [f64::NAN; WIDTH],
-            isolation: [f64::NAN; WIDTH],
-            turn: [0.0; WIDTH],
-            shift: [0.0; WIDTH],
-            condition: [0.0; WIDTH],
-        };
-        for (row, pair) in found.angles.iter_mut().zip(pairs) {
-            angle_of(pair).store(row, 0);
-        }
-        here.turn.store(&mut found.turn, 0);
-        here.shift.store(&mut found.shift, 0);
-        // How far the pairs are from the circle, on which cosines and sines are.
-        let mut off_circle = limit.like(0.0);
-        for [cos, sin] in pairs {
-            off_circle = off_circle.max((cos.fma(cos, sin * sin) - limit.like(1.0)).abs());
-        }
-        self.certify(&here, &inverse, off_circle, &mut found);
-        found
-    }
-
-    /// Bounds the radius in which exactly one solution lies, and that in which there is no other: see [`certify`](crate::certify), whose
-    /// names are used here.
-    #[inline(always)]
-    fn certify<S: Simd>(
-        &self,
-        at: &LaneClosure<S>,
-        inverse: &[[Lanes<S>; 6]; 6],
-        off_circle: Lanes<S>,
-        found: &mut Found,
-    ) {
-        let zero = at.turn.like(0.0);
-        // Steps of the product: a rotation about z has row sums of at most the root of 2.
-        let (mut rounding, mut twist, mut lever) = (zero, zero, zero);
-        let mut of_gap = zero;
-        for (j, constant) in self.of.closed.constants.iter().enumerate() {
-            let step = ROOT_2 * row_sum(constant);
-            of_gap =
-                (at.distances[j] + zero.like(ROOT_3)) * (at.distances[j + 1] + zero.like(ROOT_3)) * zero.like(step);
-            rounding = rounding + of_gap;
-            twist = twist + at.distances[j] + zero.like(ROOT_2);
-            lever = at.distances[j].fma(zero.like(ROOT_3 * ROOT_3), lever + zero.like(ROOT_3));
-        }
-        let rounding = rounding * zero.like(ROUNDINGS * ROUNDOFF);
-        let data = of_gap * zero.like(self.of.gap_rounding);
-        let error = rounding + data;
-        let off = at.turn.max(at.shift).fma(zero.like(8.0), error);
-        let twist_error = lever * (error + zero.like(2.0 * ROUNDOFF)) * zero.like(3.0);
-        let twists = twist_error.fma(zero.like(3.0), twist) * zero.like(MARGIN);
-        let derivative = (twists * off).fma(zero.like(2.0), twist_error) * zero.like(MARGIN);
-        let (mut norm, mut step, mut deviation, mut residual, mut jacobian) = (zero, zero, zero, zero, [zero; 6]);
-        // A maximum may lose what is no number, a sum does not.
-        let mut all = at.turn + at.shift + off_circle;
-        for (i, row) in inverse.iter().enumerate() {
-            let (mut size, mut moved, mut wrong) = (zero, zero, zero);
-            for a in 0..6 {
-                size = size + row[a].abs();
-                moved = row[a].fma(at.residual[a], moved);
-                let mut value = if a == i { zero.like(1.0) } else { zero };
-                for b in 0..6 {
-                    value = row[b].subtracted_from(at.jacobian[a][b], value);
-                }
-                wrong = wrong + value.abs();
-                jacobian[i] = jacobian[i] + at.jacobian[a][i].abs();
-            }
-            norm = norm.max(size);
-            step = step.max(moved.abs());
-            deviation = deviation.max(wrong);
-            residual = residual.max(at.residual[i].abs());
-            all = all + size + moved.abs() + wrong + at.residual[i].abs();
-        }
-        let mut size = zero;
-        for row in jacobian {
-            size = size.max(row);
-        }
-        (size * norm).store(&mut found.condition, 0);
-        let norm = norm * zero.like(MARGIN);
-        let y = (norm.fma(residual.fma(zero.like(16.0 * ROUNDOFF), error), step)) * zero.like(MARGIN);
-        // The sums of the terms of a row of the product are at most the product of the norms.
-        let z0 = ((norm * size).fma(zero.like(40.0 * ROUNDOFF), norm.fma(derivative, deviation))) * zero.like(MARGIN);
-        let bend = norm * twists * twists * (off + zero.like(1.0)) * zero.like(MARGIN);
-        let one = zero.like(1.0);
-        // exp x is at most 1 + x + x^2 for x up to 1.
-        let radius = (y / (one - z0) * zero.like(1.05 * 1.5)).max(zero.like(f64::MIN_POSITIVE));
-        let bounds = [y, z0, twists];
-        let x = radius * twists;
-        let growth = x.fma(x, x + one);
-        let is_sound = all.below(zero.like(f64::MAX)).and(off_circle.at_most(zero.like(OFF_CIRCLE)));
-        let is_proved = works(bounds, radius, bend * growth)
-            .and(is_sound)
-            .and(z0.below(zero.like(0.5)))
-            .and(off.below(zero.like(1e-3)))
-            .and((x.fma(x, x)).fma(zero.like(MARGIN), off).below(zero.like(0.5)));
-        let mut isolation = (one - z0) / (bend * growth) * zero.like(0.9);
-        let x = isolation * twists;
-        let works_there = works(bounds, isolation, bend * x.fma(x, x + one)).and(radius.below(isolation));
-        let half = isolation * zero.like(0.5);
-        let x = half * twists;
-        let works_half = works(bounds, half, bend * x.fma(x, x + one)).and(radius.below(half));
-        isolation = works_there.select(isolation, works_half.select(half, radius));
-        let nothing = zero.like(f64::NAN);
-        is_proved.select(radius, nothing).store(&mut found.radius, 0);
-        is_proved.select(isolation, nothing).store(&mut found.isolation, 0);
-    }
-}
-
-/// Whether a radius proves a solution: `y + z0 r + z2 r^2 / 2` is at most r and `z0 + z2 r` below 1, where `r twists` is at most 1.
-#[inline(always)]
-fn works<S: Simd>([y, z0, twists]: [Lanes<S>; 3], r: Lanes<S>, z2: Lanes<S>) -> Mask<S> {
-    let one = r.like(1.0);
-    let reached = (z2 * r * r).fma(r.like(0.5), z0.fma(r, y));
-    reached.at_most(r).and(z2.fma(r, z0).below(one)).and((r * twists).at_most(one))
 }
 
 /// The sum of products.
 #[inline(always)]
 fn dot<S: Simd>(x: &[Lanes<S>; 3], y: &[Lanes<S>; 3]) -> Lanes<S> {
     x[0].fma(y[0], x[1].fma(y[1], x[2] * y[2]))
-}
-
-/// The row-sum norm of a constant as a matrix, at least 1.
-#[inline(always)]
-fn row_sum(motion: &Motion<f64>) -> f64 {
-    let mut largest = 1.0_f64;
-    for (row, shift) in motion.rotation.iter().zip(&motion.translation) {
-        largest = largest.max(row[0].abs() + row[1].abs() + row[2].abs() + shift.abs());
-    }
-    largest
 }
 
 /// The coordinates of a line with a marked point.

@@ -4,6 +4,7 @@ mod axis_triples;
 mod closed_form;
 mod few_revolutes;
 mod high_precision;
+mod lane_finish;
 mod lane_list;
 mod limits;
 mod mode;

@@ -36,6 +36,14 @@ pub struct Mode {
     pub hits: Hits,
 }
 
+impl Mode {
+    /// Returns the solution with the conjugate numbers.
+    #[must_use]
+    pub fn conjugate(&self) -> Self {
+        Self { unknowns: self.unknowns.map(|z| z.conj()), ..self.clone() }
+    }
+}
+
 /// The number of times a mode was found by the roots of one pencil.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Hits {
@@ -134,11 +142,18 @@ impl Assembly {
 #[must_use]
 pub fn are_apart(variables: &[Variable; 6], one: &Mode, two: &Mode) -> bool {
     let off = |mode: &Mode, k: usize| {
-        let rounding = 4.0 * f64::EPSILON * mode.unknowns[k].norm().max(1.0);
+        let rounding = 4.0 * f64::EPSILON * (mode.unknowns[k].re.abs() + mode.unknowns[k].im.abs()).max(1.0);
         mode.certificate.map_or(0.0, |c| c.proved + rounding)
     };
     let apart = |k: usize| difference(variables[k], one.unknowns[k] - two.unknowns[k]) > off(one, k) + off(two, k);
     (0..6).any(apart)
+}
+
+/// Returns whether all modes are simple, certified, and apart from each other.
+#[must_use]
+pub fn are_all_apart(variables: &[Variable; 6], modes: &[Mode]) -> bool {
+    let is_simple = |mode: &Mode| mode.multiplicity == 1 && mode.certificate.is_some();
+    (0..modes.len()).all(|k| is_simple(&modes[k]) && modes[..k].iter().all(|other| are_apart(variables, other, &modes[k])))
 }
 
 /// Reduces an angle to (-pi, pi].

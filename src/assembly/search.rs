@@ -77,8 +77,8 @@ impl Search<'_> {
             Effort::OnePencil => &|_| usize::MAX,
             Effort::Pencils(most) | Effort::All(most) => most,
         };
-        let is_asked = self.roots == Roots::All && !matches!(self.effort, Effort::OnePencil);
-        if is_asked && self.by_closed_form(most) {
+        let is_asked = self.roots == Roots::All && matches!(self.effort, Effort::All(_));
+        if is_asked && self.by_closed_form(most, &|| None) {
             return;
         }
         match general_degree(self.closed.variables) {
@@ -385,9 +385,7 @@ impl Search<'_> {
 
     fn merge_with_conjugate(&mut self, mode: Mode) {
         if !mode.real {
-            let mut conjugate = mode.clone();
-            conjugate.unknowns = mode.unknowns.map(|z| z.conj());
-            self.merge(conjugate);
+            self.merge(mode.conjugate());
         }
         self.merge(mode);
     }
@@ -507,8 +505,12 @@ impl Search<'_> {
     }
 
     /// Returns a solution proved in double-double arithmetic from a start nearby, real if its imaginary parts vanish.
-    fn proved_mode(&self, start: &Six<Complex<f64>>) -> Option<Mode> {
-        let refined = refined_certificate_of(self.closed, start, self.gap_rounding)?;
+    pub(super) fn proved_mode(&self, start: &Six<Complex<f64>>) -> Option<Mode> {
+        self.refined_mode(refined_certificate_of(self.closed, start, self.gap_rounding)?)
+    }
+
+    /// Returns the mode of a solution proved in longer numbers.
+    pub(super) fn refined_mode(&self, refined: Refined) -> Option<Mode> {
         let Refined { mut unknowns, real, certificate, .. } = refined;
         for (z, variable) in unknowns.iter_mut().zip(self.closed.variables) {
             if variable == Variable::Rotation {

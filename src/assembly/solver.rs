@@ -304,8 +304,29 @@ impl Solver {
         self.search(gap, roots, Effort::All(most), workspace, assembly);
     }
 
-    /// As [`Solver::solve_up_to`] for all roots, by the pencils alone: unresolved roots are not searched for, and modes
-    /// without certificate are left undecided.
+    /// As [`Solver::solve_up_to`] for all roots, by the closed form alone. Returns whether as many solutions are proved as the geometry is
+    /// known to have at most; otherwise nothing is listed. `exact` gives the loop closed at this pose, rounded once from the exact data: it
+    /// is asked where candidates are too near to each other for stored constants.
+    pub fn solve_in_closed_form(
+        &self,
+        gap: &Gap,
+        most: &dyn Fn(usize) -> usize,
+        exact: &dyn Fn() -> Option<ClosedLoop<DoubleDouble>>,
+        workspace: &mut Workspace,
+        assembly: &mut Assembly,
+    ) -> bool {
+        assembly.clear();
+        let unit = DoubleDouble::from(1.0 / self.scale);
+        let exact = || exact().map(|exact| exact.in_unit(&unit));
+        let closed = self.close(gap);
+        let mut search = self.searched(gap, &closed, Roots::All, Effort::OnePencil, workspace, assembly);
+        let is_proved = search.by_closed_form(most, &exact);
+        self.finish(assembly);
+        is_proved
+    }
+
+    /// As [`Solver::solve_up_to`] for all roots, by the pencils alone: no closed form is used, unresolved roots are not searched for, and
+    /// modes without certificate are left undecided.
     pub fn solve_by_pencils(
         &self,
         gap: &Gap,

@@ -381,9 +381,11 @@ fn refined_real(closed: &ClosedLoop<f64>, unknowns: &Six<f64>, data: Data) -> Op
 }
 
 /// Maximum number of Newton steps from a start that is nearly as exact as its numbers.
-const MOST_STEPS: usize = 8;
+const MOST_STEPS: usize = 10;
 /// A step below this ends the iteration.
 const SETTLED: f64 = 1e-30;
+/// A step that is below this and not half of the one before does so, too.
+const STALLED: f64 = 1e-18;
 
 /// Proves, in the arithmetic of exact constants, cosines, sines and distances that nearly close the loop.
 #[must_use]
@@ -403,6 +405,7 @@ pub fn from_pairs<R: Extended>(closed: &ClosedLoop<R>, pairs: &Pairs<R>) -> Opti
     }
     let reach = reach(&closed.variables, &state.map(narrowed));
     let mut at = Approach { closed, state, reach };
+    let mut before = f64::INFINITY;
     for _ in 0..MOST_STEPS {
         let pairs = at.pairs()?;
         let (here, inverse, step) = at.newton(&pairs, inverse)?;
@@ -410,13 +413,15 @@ pub fn from_pairs<R: Extended>(closed: &ClosedLoop<R>, pairs: &Pairs<R>) -> Opti
         if !(size < 0.3) {
             return None;
         }
-        if size < SETTLED
+        // Beside another solution steps of double-double numbers do not become so small.
+        if (size < SETTLED || size < STALLED && !(size < 0.5 * before))
             && let Some(proof) = certificate(&here, &inverse).or_else(|| in_any_frame(closed, &pairs, at.reach, None))
         {
             let told = at.told(proof, norm(&here.jacobian) * norm(&inverse));
             // Unknowns without an f64 cannot be reported.
             return told.unknowns.iter().all(|z| z.is_finite()).then_some(told);
         }
+        before = size;
         at.step_back(&step);
     }
     None

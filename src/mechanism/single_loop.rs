@@ -412,11 +412,11 @@ impl Question<'_> {
         bound.into_iter().chain(ring).min_by_key(|bound| bound.count)
     }
 
-    fn judge(&self, assembly: &Assembly) -> Verdict {
+    fn judge(&self, roots: Roots, assembly: &Assembly) -> Verdict {
         let SixUnknowns { solver, .. } = self.prepared;
         let everywhere = || {
             // The exact count costs more than a search for real roots, and rarely helps one.
-            let skip = self.only_lists || self.roots == Roots::Real && !solver.is_special();
+            let skip = self.only_lists || roots == Roots::Real && !solver.is_special();
             let all = || self.prepared.bound(&self.of.chain, assembly.total()).clone();
             if skip { Bound::general(self.prepared.general()) } else { all() }
         };
@@ -425,7 +425,7 @@ impl Question<'_> {
         // What misses the pose by less than the tolerance is near.
         let is_beyond = |(gap, links): &(f64, f64)| self.tolerance.is_none_or(|own| gap - links > own.length + own.angle * links);
         let too_far = solver.too_far(self.gap).filter(is_beyond);
-        let verdict = verdict(assembly, self.roots, rank, general, everywhere, here, too_far);
+        let verdict = verdict(assembly, roots, rank, general, everywhere, here, too_far);
         // Incidences of rounded axes may be those of the rounded numbers only.
         let is_of_axes = verdict.code == Code::GeometryBoundMet;
         let is_rounded = is_of_axes && self.prepared.data(&self.of.chain).is_rounded();
@@ -455,13 +455,13 @@ impl Question<'_> {
     fn completed(&self, verdict: &Verdict, assembly: &mut Assembly) -> Option<Verdict> {
         let expected = self.expected(verdict)?;
         self.solve_in_high_precision::<LongFloat>(expected, assembly);
-        let verdict = self.judge(assembly);
+        let verdict = self.judge(self.roots, assembly);
         if verdict.status != Status::Incomplete {
             return Some(verdict);
         }
         // Solutions that only the rounding of the data keeps from infinity.
         self.solve_in_high_precision::<LongerFloat>(expected, assembly);
-        Some(self.judge(assembly))
+        Some(self.judge(self.roots, assembly))
     }
 
     /// Looks again for what is missing of a list, in multiprecision arithmetic.
@@ -483,7 +483,7 @@ impl Question<'_> {
             return None;
         }
         solver.solve_briefly(self.gap, workspace, assembly);
-        let mut verdict = self.judge(assembly);
+        let mut verdict = self.judge(self.roots, assembly);
         if verdict.status == Status::Incomplete {
             self.plan()?;
             verdict = self.completed(&verdict, assembly)?;
@@ -508,7 +508,17 @@ impl Question<'_> {
             if self.only_lists { self.prepared.general() } else { self.prepared.bound(&self.of.chain, known).count }
         };
         let SixUnknowns { solver, .. } = self.prepared;
-        // A closed form is as fast, and has all solutions.
+        // A closed form is as fast as real zeros, and has all solutions.
+        let exact = || {
+            let enclosed = self.prepared.enclosed(&self.of.chain, self.case).ok().flatten()?;
+            enclosed.rounded::<DoubleDouble>(DoubleDouble::BITS)
+        };
+        if !self.only_lists && solver.solve_in_closed_form(self.gap, &most, &exact, workspace, assembly) {
+            let verdict = self.judge(Roots::All, assembly);
+            if is_settled(&verdict) {
+                return verdict;
+            }
+        }
         let is_first = self.real_first && !solver.is_decoupled();
         if self.roots == Roots::Real && self.has_real_list(workspace, assembly)
             || is_first && self.has_quick_real_list(workspace, assembly)
@@ -520,7 +530,7 @@ impl Question<'_> {
                 solver.solve_briefly(self.gap, workspace, assembly);
                 let found = assembly.total();
                 if found >= most(found) {
-                    let verdict = self.judge(assembly);
+                    let verdict = self.judge(self.roots, assembly);
                     if is_settled(&verdict) {
                         return verdict;
                     }
@@ -530,7 +540,7 @@ impl Question<'_> {
                 }
             }
             solver.solve_by_pencils(self.gap, &most, workspace, assembly);
-            let verdict = self.judge(assembly);
+            let verdict = self.judge(self.roots, assembly);
             if let Some(verdict) = self.beside_real_zeros(&verdict, workspace, assembly) {
                 return verdict;
             }
@@ -540,7 +550,7 @@ impl Question<'_> {
             }
         }
         solver.solve_up_to(self.gap, self.roots, &most, workspace, assembly);
-        let mut verdict = self.judge(assembly);
+        let mut verdict = self.judge(self.roots, assembly);
         if let Some(verdict) = self.beside_real_zeros(&verdict, workspace, assembly) {
             return verdict;
         }

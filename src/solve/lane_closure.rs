@@ -1,116 +1,219 @@
 //! The closure of loops of rotations at several places side by side, the inverse of its derivative, and angles.
 
-use super::lanes::Lanes;
+use super::lanes::{ComplexLanes, LaneNumber, Lanes, Row, WIDTH};
 use crate::kinematics::motion::Motion;
 use pulp::Simd;
 
 /// Cosine and sine of six angles.
-pub type Pairs<S> = [[Lanes<S>; 2]; 6];
+pub type Pairs<N> = [[N; 2]; 6];
 
 /// A motion in every lane.
-struct Frame<S: Simd> {
-    rotation: [[Lanes<S>; 3]; 3],
-    translation: [Lanes<S>; 3],
+struct Frame<N> {
+    rotation: [[N; 3]; 3],
+    translation: [N; 3],
+}
+
+/// Norms of a frame for error bounds, see [`StepNorms`](super::newton::StepNorms).
+#[derive(Clone, Copy)]
+pub struct Lengths<S: Simd> {
+    /// The row-sum norm of the frame, and of its inverse.
+    pub norm: Lanes<S>,
+    /// That of its inverse.
+    pub inverse: Lanes<S>,
+    /// That of the twist of the unknown behind it.
+    pub twist: Lanes<S>,
+    /// The derivative of that twist with respect to the frame.
+    pub lever: Lanes<S>,
+}
+
+/// Cosines and sines of real or of complex angles.
+pub trait Angular<S: Simd>: LaneNumber<S> {
+    /// Whether the angles are real.
+    const REAL: bool;
+    /// Bounds the norms of a frame.
+    fn lengths(rotation: &[[Self; 3]; 3], translation: &[Self; 3]) -> Lengths<S>;
+    /// Returns the angle of a pair on the circle: real part and imaginary part, each within [`ANGLE_ERROR`] and that many parts of the
+    /// imaginary part.
+    fn angle(pair: [Self; 2]) -> [Row; 2];
 }
 
 /// The closure at several places, see [`Closure`](super::newton::Closure).
-pub struct LaneClosure<S: Simd> {
+pub struct LaneClosure<S: Simd, N> {
     /// The skew part of the rotation as a vector, and the translation.
-    pub residual: [Lanes<S>; 6],
+    pub residual: [N; 6],
     /// Column j is the twist of unknown j, as `[j][row]`.
-    pub jacobian: [[Lanes<S>; 6]; 6],
-    /// The largest entry of |E - I| in the rotation, and in the translation.
+    pub jacobian: [[N; 6]; 6],
+    /// The largest entry of |E - I| in the rotation.
     pub turn: Lanes<S>,
     /// The largest one in the translation.
     pub shift: Lanes<S>,
-    /// The distance of the frame in front of each unknown, and of the last one.
-    pub distances: [Lanes<S>; 7],
+    /// Norms of the frame in front of each unknown, and of the last one.
+    pub lengths: [Lengths<S>; 7],
 }
 
-impl<S: Simd> Frame<S> {
+/// The root of 2 and of 3, with a margin: row sums of rotations, and of twists.
+const ROOT_2: f64 = 1.4143;
+const ROOT_3: f64 = 1.7321;
+
+impl<S: Simd> Angular<S> for Lanes<S> {
+    const REAL: bool = true;
+
+    #[inline(always)]
+    fn lengths(_: &[[Self; 3]; 3], [x, y, z]: &[Self; 3]) -> Lengths<S> {
+        // Rows of a rotation are unit vectors, and the inverse moves the origin by the same distance.
+        let distance = x.fma(*x, y.fma(*y, *z * *z)).sqrt();
+        let norm = distance + x.like(ROOT_3);
+        let lever = distance.fma(x.like(ROOT_3 * ROOT_3), x.like(ROOT_3));
+        Lengths { norm, inverse: norm, twist: distance + x.like(ROOT_2), lever }
+    }
+
+    #[inline(always)]
+    fn angle(pair: [Self; 2]) -> [Row; 2] {
+        let mut angle = [0.0; WIDTH];
+        angle_of(pair).store(&mut angle, 0);
+        [angle, [0.0; WIDTH]]
+    }
+}
+
+impl<S: Simd> Angular<S> for ComplexLanes<S> {
+    const REAL: bool = false;
+
+    #[inline(always)]
+    fn lengths(r: &[[Self; 3]; 3], t: &[Self; 3]) -> Lengths<S> {
+        let one = t[0].re.like(1.0);
+        let (mut norm, mut inverse) = (one, one);
+        let at = [t[0].bound(), t[1].bound(), t[2].bound()];
+        for j in 0..3 {
+            norm = norm.max(r[j][0].bound() + r[j][1].bound() + r[j][2].bound() + at[j]);
+            let back = r[0][j].mul_add(t[0], r[1][j].mul_add(t[1], r[2][j] * t[2]));
+            inverse = inverse.max(r[0][j].bound() + r[1][j].bound() + r[2][j].bound() + back.bound());
+        }
+        let z = [r[0][2], r[1][2], r[2][2]];
+        let moment = moment(t, &z);
+        let size = [z[0].bound(), z[1].bound(), z[2].bound()];
+        let twist = (size[1] + size[2] + moment[0].bound())
+            .max(size[0] + size[2] + moment[1].bound())
+            .max(size[0] + size[1] + moment[2].bound());
+        let lever = (size[0] + size[1] + size[2]) * (one + at[0] + at[1] + at[2]);
+        Lengths { norm, inverse, twist, lever }
+    }
+
+    #[inline(always)]
+    fn angle([cos, sin]: [Self; 2]) -> [Row; 2] {
+        // e^(i q) and e^(-i q); the larger one keeps its digits.
+        let plus = Self { re: cos.re - sin.im, im: cos.im + sin.re };
+        let minus = Self { re: cos.re + sin.im, im: cos.im - sin.re };
+        let is_minus = plus.square_size().below(minus.square_size());
+        let larger = Self::selected(is_minus, minus, plus);
+        let square = larger.square_size();
+        let over = square.like(1.0) / square.sqrt();
+        let turn = angle_of([larger.re * over, larger.im * over]);
+        let (mut re, mut im, mut sign) = ([0.0; WIDTH], [0.0; WIDTH], [0.0; WIDTH]);
+        is_minus.select(-turn, turn).store(&mut re, 0);
+        square.store(&mut im, 0);
+        is_minus.select(square.like(0.5), square.like(-0.5)).store(&mut sign, 0);
+        for (x, half) in im.iter_mut().zip(sign).take(S::F64_LANES) {
+            *x = half * x.ln();
+        }
+        [re, im]
+    }
+}
+
+/// `p x z`
+#[inline(always)]
+fn moment<S: Simd, N: LaneNumber<S>>(p: &[N; 3], z: &[N; 3]) -> [N; 3] {
+    [
+        z[1].mul_from(p[2], p[1] * z[2]),
+        z[2].mul_from(p[0], p[2] * z[0]),
+        z[0].mul_from(p[1], p[0] * z[1]),
+    ]
+}
+
+impl<N> Frame<N> {
     /// `frame * constant`
     #[inline(always)]
-    fn behind(&self, constant: &Motion<f64>) -> Self {
+    fn behind<S: Simd>(&self, constant: &Motion<f64>, one: Lanes<S>) -> Self
+    where
+        N: LaneNumber<S>,
+    {
         let (r, g) = (&self.rotation, &constant.rotation);
         let mut next = Self { rotation: *r, translation: self.translation };
         for i in 0..3 {
             for j in 0..3 {
-                let (a, b, c) = (r[i][0].like(g[0][j]), r[i][0].like(g[1][j]), r[i][0].like(g[2][j]));
-                next.rotation[i][j] = r[i][2].fma(c, r[i][1].fma(b, r[i][0] * a));
+                let (a, b, c) = (one.like(g[0][j]), one.like(g[1][j]), one.like(g[2][j]));
+                next.rotation[i][j] = r[i][2].times_plus(c, r[i][1].times_plus(b, r[i][0].times(a)));
             }
             let t = &constant.translation;
-            let (a, b, c) = (r[i][0].like(t[0]), r[i][0].like(t[1]), r[i][0].like(t[2]));
-            next.translation[i] = r[i][2].fma(c, r[i][1].fma(b, r[i][0].fma(a, self.translation[i])));
+            let (a, b, c) = (one.like(t[0]), one.like(t[1]), one.like(t[2]));
+            next.translation[i] =
+                r[i][2].times_plus(c, r[i][1].times_plus(b, r[i][0].times_plus(a, self.translation[i])));
         }
         next
     }
 
     /// `frame * Rz`
     #[inline(always)]
-    fn turn(&mut self, [cos, sin]: [Lanes<S>; 2]) {
+    fn turn<S: Simd>(&mut self, [cos, sin]: [N; 2])
+    where
+        N: LaneNumber<S>,
+    {
         for row in &mut self.rotation {
             let (x, y) = (row[0], row[1]);
-            row[0] = x.fma(cos, y * sin);
-            row[1] = x.subtracted_from(sin, y * cos);
+            row[0] = x.mul_add(cos, y * sin);
+            row[1] = x.mul_from(sin, y * cos);
         }
-    }
-
-    #[inline(always)]
-    fn distance(&self) -> Lanes<S> {
-        let [x, y, z] = self.translation;
-        x.fma(x, y.fma(y, z * z)).sqrt()
     }
 }
 
-/// Returns the closure of a loop of six rotations.
+/// Returns the closure of a loop of six rotations; `one` is 1 in every lane.
 #[inline(always)]
-pub fn lane_closure<S: Simd>(constants: &[Motion<f64>; 6], pairs: &Pairs<S>) -> LaneClosure<S> {
-    let one = pairs[0][0].like(1.0);
+pub fn lane_closure<S: Simd, N: Angular<S>>(
+    constants: &[Motion<f64>; 6],
+    pairs: &Pairs<N>,
+    one: Lanes<S>,
+) -> LaneClosure<S, N> {
     let zero = one.like(0.0);
-    let mut jacobian = [[zero; 6]; 6];
-    let mut distances = [zero; 7];
+    let mut jacobian = [[N::of(zero); 6]; 6];
+    // The first frame is the identity.
+    let first = Lengths { norm: one.like(ROOT_3), inverse: one.like(ROOT_3), twist: one.like(ROOT_2), lever: one.like(ROOT_3) };
+    let mut lengths = [first; 7];
     // The first rotation turns the first constant from the left, about the z axis of the frame.
-    jacobian[0][2] = one;
+    jacobian[0][2] = N::of(one);
     let [cos, sin] = pairs[0];
     let first = &constants[0];
-    let mut frame = Frame { rotation: [[zero; 3]; 3], translation: [zero; 3] };
+    let mut frame = Frame { rotation: [[N::of(zero); 3]; 3], translation: [N::of(zero); 3] };
     for j in 0..3 {
-        let (x, y) = (cos.like(first.rotation[0][j]), cos.like(first.rotation[1][j]));
-        frame.rotation[0][j] = cos * x - sin * y;
-        frame.rotation[1][j] = sin * x + cos * y;
-        frame.rotation[2][j] = cos.like(first.rotation[2][j]);
+        let (x, y) = (one.like(first.rotation[0][j]), one.like(first.rotation[1][j]));
+        frame.rotation[0][j] = cos.times(x) - sin.times(y);
+        frame.rotation[1][j] = sin.times(x) + cos.times(y);
+        frame.rotation[2][j] = N::of(one.like(first.rotation[2][j]));
     }
-    let (x, y) = (cos.like(first.translation[0]), cos.like(first.translation[1]));
-    frame.translation = [cos * x - sin * y, sin * x + cos * y, cos.like(first.translation[2])];
+    let (x, y) = (one.like(first.translation[0]), one.like(first.translation[1]));
+    frame.translation =
+        [cos.times(x) - sin.times(y), sin.times(x) + cos.times(y), N::of(one.like(first.translation[2]))];
     for j in 1..6 {
         let z = [frame.rotation[0][2], frame.rotation[1][2], frame.rotation[2][2]];
-        let p = frame.translation;
-        jacobian[j] = [
-            z[0],
-            z[1],
-            z[2],
-            z[1].subtracted_from(p[2], p[1] * z[2]),
-            z[2].subtracted_from(p[0], p[2] * z[0]),
-            z[0].subtracted_from(p[1], p[0] * z[1]),
-        ];
-        distances[j] = frame.distance();
+        let about = moment(&frame.translation, &z);
+        jacobian[j] = [z[0], z[1], z[2], about[0], about[1], about[2]];
+        lengths[j] = N::lengths(&frame.rotation, &frame.translation);
         frame.turn(pairs[j]);
-        frame = frame.behind(&constants[j]);
+        frame = frame.behind(&constants[j], one);
     }
-    distances[6] = frame.distance();
+    lengths[6] = N::lengths(&frame.rotation, &frame.translation);
     let r = &frame.rotation;
     let half = one.like(0.5);
     let (mut turn, mut shift) = (zero, zero);
     for i in 0..3 {
         for j in 0..3 {
-            let off = if i == j { r[i][j] - one } else { r[i][j] };
-            turn = larger(turn, off.abs());
+            let off = if i == j { r[i][j] - N::of(one) } else { r[i][j] };
+            turn = larger(turn, off.bound());
         }
-        shift = larger(shift, frame.translation[i].abs());
+        shift = larger(shift, frame.translation[i].bound());
     }
     let [x, y, z] = frame.translation;
-    let residual = [half * (r[2][1] - r[1][2]), half * (r[0][2] - r[2][0]), half * (r[1][0] - r[0][1]), x, y, z];
-    LaneClosure { residual, jacobian, turn, shift, distances }
+    let skew = [(r[2][1] - r[1][2]).times(half), (r[0][2] - r[2][0]).times(half), (r[1][0] - r[0][1]).times(half)];
+    let residual = [skew[0], skew[1], skew[2], x, y, z];
+    LaneClosure { residual, jacobian, turn, shift, lengths }
 }
 
 /// The larger number, y where that is NaN; where x is, the off-diagonal entries beside it are, and the residuals with them.
@@ -121,39 +224,41 @@ fn larger<S: Simd>(x: Lanes<S>, y: Lanes<S>) -> Lanes<S> {
 
 /// Returns an approximate inverse of a matrix given by its columns, as rows: Gram and Schmidt's triangular factor, inverted.
 #[inline(always)]
-pub fn lane_inverse<S: Simd>(columns: &[[Lanes<S>; 6]; 6]) -> [[Lanes<S>; 6]; 6] {
+pub fn lane_inverse<S: Simd, N: LaneNumber<S>>(columns: &[[N; 6]; 6], one: Lanes<S>) -> [[N; 6]; 6] {
     let mut q = *columns;
-    let one = q[0][0].like(1.0);
-    let mut factor = [[one; 6]; 6];
+    let mut factor = [[N::of(one); 6]; 6];
     let mut over = [one; 6];
     for j in 0..6 {
-        let mut square = q[j][0] * q[j][0];
+        let mut square = q[j][0].square_size();
         for i in 1..6 {
-            square = q[j][i].fma(q[j][i], square);
+            square = q[j][i].square_plus(square);
         }
         over[j] = one / square.sqrt();
         for i in 0..6 {
-            q[j][i] = q[j][i] * over[j];
+            q[j][i] = q[j][i].times(over[j]);
         }
         for k in j + 1..6 {
-            let mut dot = q[j][0] * q[k][0];
+            let mut dot = q[j][0].conj() * q[k][0];
             for i in 1..6 {
-                dot = q[j][i].fma(q[k][i], dot);
+                dot = q[j][i].conj().mul_add(q[k][i], dot);
             }
             factor[j][k] = dot;
             for i in 0..6 {
-                q[k][i] = dot.subtracted_from(q[j][i], q[k][i]);
+                q[k][i] = dot.mul_from(q[j][i], q[k][i]);
             }
         }
     }
     for j in (0..6).rev() {
+        for i in 0..6 {
+            q[j][i] = q[j][i].conj();
+        }
         for k in j + 1..6 {
             for i in 0..6 {
-                q[j][i] = factor[j][k].subtracted_from(q[k][i], q[j][i]);
+                q[j][i] = factor[j][k].mul_from(q[k][i], q[j][i]);
             }
         }
         for i in 0..6 {
-            q[j][i] = q[j][i] * over[j];
+            q[j][i] = q[j][i].times(over[j]);
         }
     }
     q
@@ -161,27 +266,26 @@ pub fn lane_inverse<S: Simd>(columns: &[[Lanes<S>; 6]; 6]) -> [[Lanes<S>; 6]; 6]
 
 /// Returns cosine and sine of an angle off by a small one, subtracted, to fourth order, over their length.
 #[inline(always)]
-pub fn turned_back<S: Simd>([cos, sin]: [Lanes<S>; 2], angle: Lanes<S>) -> [Lanes<S>; 2] {
-    let one = cos.like(1.0);
+pub fn turned_back<S: Simd, N: LaneNumber<S>>([cos, sin]: [N; 2], angle: N, one: Lanes<S>) -> [N; 2] {
     let square = angle * angle;
-    let by_sin = angle * square.subtracted_from(cos.like(1.0 / 6.0), one);
-    let by_cos = square.fma(square.fma(cos.like(1.0 / 24.0), cos.like(-0.5)), one);
-    on_circle([cos.fma(by_cos, sin * by_sin), cos.subtracted_from(by_sin, sin * by_cos)])
+    let by_sin = angle * square.times_plus(one.like(-1.0 / 6.0), N::of(one));
+    let by_cos = square.mul_add(square.times_plus(one.like(1.0 / 24.0), N::of(one.like(-0.5))), N::of(one));
+    on_circle([cos.mul_add(by_cos, sin * by_sin), cos.mul_from(by_sin, sin * by_cos)], one)
 }
 
 /// Returns a pair near the circle on it, to rounding.
 #[inline(always)]
-fn on_circle<S: Simd>([cos, sin]: [Lanes<S>; 2]) -> [Lanes<S>; 2] {
-    let square = cos.fma(cos, sin * sin);
+fn on_circle<S: Simd, N: LaneNumber<S>>([cos, sin]: [N; 2], one: Lanes<S>) -> [N; 2] {
+    let square = cos.mul_add(cos, sin * sin);
     // One step of Newton's method towards one over the root.
-    let factor = square.fma(cos.like(-0.5), cos.like(1.5));
+    let factor = square.times_plus(one.like(-0.5), N::of(one.like(1.5)));
     [cos * factor, sin * factor]
 }
 
 /// Returns a pair over its length.
 #[inline(always)]
-pub fn normalised<S: Simd>([cos, sin]: [Lanes<S>; 2]) -> [Lanes<S>; 2] {
-    let over = cos.like(1.0) / cos.fma(cos, sin * sin).sqrt();
+pub fn normalised<S: Simd, N: LaneNumber<S>>([cos, sin]: [N; 2]) -> [N; 2] {
+    let over = cos.mul_add(cos, sin * sin).root().inverse();
     [cos * over, sin * over]
 }
 

@@ -19,6 +19,47 @@ pub struct Lanes<S: Simd> {
     values: S::f64s,
 }
 
+/// Complex numbers side by side.
+#[derive(Clone, Copy)]
+pub struct ComplexLanes<S: Simd> {
+    /// The real parts.
+    pub re: Lanes<S>,
+    /// The imaginary parts.
+    pub im: Lanes<S>,
+}
+
+/// Real or complex numbers side by side, for formulas that are written once for both.
+pub trait LaneNumber<S: Simd>:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
+{
+    /// Returns these real numbers.
+    fn of(re: Lanes<S>) -> Self;
+    /// Returns numbers with these real and imaginary parts; real numbers have no imaginary part.
+    fn from_parts(re: Lanes<S>, im: Lanes<S>) -> Self;
+    /// Returns `self * x` for real x.
+    fn times(self, x: Lanes<S>) -> Self;
+    /// Returns `self * x + b` for real x.
+    fn times_plus(self, x: Lanes<S>, b: Self) -> Self;
+    /// Returns `self * a + b`.
+    fn mul_add(self, a: Self, b: Self) -> Self;
+    /// Returns `b - self * a`.
+    fn mul_from(self, a: Self, b: Self) -> Self;
+    /// Returns the conjugates.
+    fn conj(self) -> Self;
+    /// Returns upper bounds of the absolute values, those of real and imaginary part added up.
+    fn bound(self) -> Lanes<S>;
+    /// Returns the squares of the absolute values.
+    fn square_size(self) -> Lanes<S>;
+    /// Returns these squares and a sum.
+    fn square_plus(self, sum: Lanes<S>) -> Lanes<S>;
+    /// Returns `1 / self`.
+    fn inverse(self) -> Self;
+    /// Returns the square roots with real parts that are not negative; NaN at 0 for complex numbers.
+    fn root(self) -> Self;
+    /// Returns `yes` where the condition holds, and `no` in the other lanes.
+    fn selected(mask: Mask<S>, yes: Self, no: Self) -> Self;
+}
+
 /// A condition in every lane.
 #[derive(Clone, Copy)]
 pub struct Mask<S: Simd> {
@@ -50,6 +91,13 @@ impl<S: Simd> Lanes<S> {
     pub fn store(self, row: &mut [f64], chunk: usize) {
         let (registers, _) = S::as_mut_simd_f64s(row);
         registers[chunk] = self.values;
+    }
+
+    /// Loads the first register of a row.
+    #[must_use]
+    #[inline(always)]
+    pub fn loaded(self, row: &Row) -> Self {
+        Self::load(self.simd, row, 0)
     }
 
     /// Returns the same number as here in every lane.
@@ -119,6 +167,165 @@ impl<S: Simd> Lanes<S> {
     #[inline(always)]
     pub fn at_most(self, other: Self) -> Mask<S> {
         Mask { simd: self.simd, values: self.simd.less_than_or_equal_f64s(self.values, other.values) }
+    }
+}
+
+impl<S: Simd> LaneNumber<S> for Lanes<S> {
+    #[inline(always)]
+    fn of(re: Self) -> Self {
+        re
+    }
+    #[inline(always)]
+    fn from_parts(re: Self, _: Self) -> Self {
+        re
+    }
+    #[inline(always)]
+    fn times(self, x: Self) -> Self {
+        self * x
+    }
+    #[inline(always)]
+    fn times_plus(self, x: Self, b: Self) -> Self {
+        self.fma(x, b)
+    }
+    #[inline(always)]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        self.fma(a, b)
+    }
+    #[inline(always)]
+    fn mul_from(self, a: Self, b: Self) -> Self {
+        self.subtracted_from(a, b)
+    }
+    #[inline(always)]
+    fn conj(self) -> Self {
+        self
+    }
+    #[inline(always)]
+    fn bound(self) -> Self {
+        self.abs()
+    }
+    #[inline(always)]
+    fn square_size(self) -> Self {
+        self * self
+    }
+    #[inline(always)]
+    fn square_plus(self, sum: Self) -> Self {
+        self.fma(self, sum)
+    }
+    #[inline(always)]
+    fn inverse(self) -> Self {
+        self.like(1.0) / self
+    }
+    #[inline(always)]
+    fn root(self) -> Self {
+        self.sqrt()
+    }
+    #[inline(always)]
+    fn selected(mask: Mask<S>, yes: Self, no: Self) -> Self {
+        mask.select(yes, no)
+    }
+}
+
+impl<S: Simd> LaneNumber<S> for ComplexLanes<S> {
+    #[inline(always)]
+    fn of(re: Lanes<S>) -> Self {
+        Self { re, im: re.like(0.0) }
+    }
+    #[inline(always)]
+    fn from_parts(re: Lanes<S>, im: Lanes<S>) -> Self {
+        Self { re, im }
+    }
+    #[inline(always)]
+    fn times(self, x: Lanes<S>) -> Self {
+        Self { re: self.re * x, im: self.im * x }
+    }
+    #[inline(always)]
+    fn times_plus(self, x: Lanes<S>, b: Self) -> Self {
+        Self { re: self.re.fma(x, b.re), im: self.im.fma(x, b.im) }
+    }
+    #[inline(always)]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        Self {
+            re: self.im.subtracted_from(a.im, self.re.fma(a.re, b.re)),
+            im: self.im.fma(a.re, self.re.fma(a.im, b.im)),
+        }
+    }
+    #[inline(always)]
+    fn mul_from(self, a: Self, b: Self) -> Self {
+        Self {
+            re: self.im.fma(a.im, self.re.subtracted_from(a.re, b.re)),
+            im: self.im.subtracted_from(a.re, self.re.subtracted_from(a.im, b.im)),
+        }
+    }
+    #[inline(always)]
+    fn conj(self) -> Self {
+        Self { im: -self.im, ..self }
+    }
+    #[inline(always)]
+    fn bound(self) -> Lanes<S> {
+        self.re.abs() + self.im.abs()
+    }
+    #[inline(always)]
+    fn square_size(self) -> Lanes<S> {
+        self.re.fma(self.re, self.im * self.im)
+    }
+    #[inline(always)]
+    fn square_plus(self, sum: Lanes<S>) -> Lanes<S> {
+        self.re.fma(self.re, self.im.fma(self.im, sum))
+    }
+    #[inline(always)]
+    fn inverse(self) -> Self {
+        let over = self.re.like(1.0) / self.square_size();
+        Self { re: self.re * over, im: -(self.im * over) }
+    }
+    #[inline(always)]
+    fn root(self) -> Self {
+        // The part with the larger square without cancellation, the other one from their product.
+        let half = self.re.like(0.5);
+        let size = self.square_size().sqrt();
+        let larger = ((size + self.re.abs()) * half).sqrt();
+        let other = self.im * half / larger;
+        let is_negative = self.re.below(self.re.like(0.0));
+        let turned = self.im.below(self.im.like(0.0)).select(-larger, larger);
+        Self { re: is_negative.select(other.abs(), larger), im: is_negative.select(turned, other) }
+    }
+    #[inline(always)]
+    fn selected(mask: Mask<S>, yes: Self, no: Self) -> Self {
+        Self { re: mask.select(yes.re, no.re), im: mask.select(yes.im, no.im) }
+    }
+}
+
+impl<S: Simd> Add for ComplexLanes<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self { re: self.re + other.re, im: self.im + other.im }
+    }
+}
+
+impl<S: Simd> Sub for ComplexLanes<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self { re: self.re - other.re, im: self.im - other.im }
+    }
+}
+
+impl<S: Simd> Mul for ComplexLanes<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self {
+            re: self.im.subtracted_from(other.im, self.re * other.re),
+            im: self.im.fma(other.re, self.re * other.im),
+        }
+    }
+}
+
+impl<S: Simd> Neg for ComplexLanes<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self { re: -self.re, im: -self.im }
     }
 }
 

@@ -64,7 +64,7 @@ impl Question<'_> {
                 (verdict, false)
             }
             Resolution::Vanishing(free) => {
-                let verdict = if cap(assembly, free.len()) { self.judge(assembly) } else { verdict };
+                let verdict = if cap(assembly, free.len()) { self.judge(self.roots, assembly) } else { verdict };
                 (probable(verdict, assembly), false)
             }
             Resolution::Finite { .. } => (probable(verdict, assembly), false),

@@ -14,12 +14,12 @@ use crate::kinematics::motion::Motion;
 use num_complex::Complex;
 
 /// Cosine and sine of an angle.
-type Pair<S> = (S, S);
+pub type Pair<S> = (S, S);
 /// A complex number.
 type C64 = Complex<f64>;
 
 /// No closed form has more candidates.
-const MOST: usize = 8;
+pub const MOST: usize = 8;
 /// Largest part, relative to the larger one, of a planar vector that counts as zero, and of the product of two that count as
 /// dependent: special incidences hold up to rounding.
 const DEPENDENT: f64 = 1e-9;
@@ -42,30 +42,34 @@ pub struct Decoupled {
     pub common: Common,
 }
 
-/// The candidates at one pose, all angles in the order of the loop. Only one of two conjugates is listed.
+/// Cosines and sines of six angles in the order of the loop, on the circle but for roundings and what the data are off.
+pub type Pairs<S> = [Pair<S>; 6];
+
+/// The candidates at one pose. Only one of two conjugates is listed.
 #[derive(Clone, Debug)]
 pub struct Candidates {
-    real: [[f64; 6]; MOST],
-    complex: [[C64; 6]; MOST],
+    real: [Pairs<f64>; MOST],
+    complex: [Pairs<C64>; MOST],
     counts: [usize; 2],
 }
 
 impl Default for Candidates {
     fn default() -> Self {
-        Self { real: [[0.0; 6]; MOST], complex: [[C64::new(0.0, 0.0); 6]; MOST], counts: [0; 2] }
+        let zero = C64::new(0.0, 0.0);
+        Self { real: [[(0.0, 0.0); 6]; MOST], complex: [[(zero, zero); 6]; MOST], counts: [0; 2] }
     }
 }
 
 impl Candidates {
     /// The real ones.
     #[must_use]
-    pub fn real(&self) -> &[[f64; 6]] {
+    pub fn real(&self) -> &[Pairs<f64>] {
         &self.real[..self.counts[0]]
     }
 
     /// The complex ones, one of each pair of conjugates.
     #[must_use]
-    pub fn complex(&self) -> &[[C64; 6]] {
+    pub fn complex(&self) -> &[Pairs<C64>] {
         &self.complex[..self.counts[1]]
     }
 
@@ -75,14 +79,14 @@ impl Candidates {
         self.counts[0] + 2 * self.counts[1]
     }
 
-    fn push<S: Scalar>(&mut self, angles: &[S; 6]) {
+    fn push<S: Scalar>(&mut self, pairs: &Pairs<S>) {
         let kind = usize::from(!S::REAL);
         let at = self.counts[kind];
         if at < MOST {
             if S::REAL {
-                self.real[at] = angles.map(|x| x.to_complex().re);
+                self.real[at] = pairs.map(|(cos, sin)| (cos.to_complex().re, sin.to_complex().re));
             } else {
-                self.complex[at] = angles.map(Scalar::to_complex);
+                self.complex[at] = pairs.each_ref().map(complex);
             }
             self.counts[kind] += 1;
         }
@@ -130,11 +134,11 @@ impl Rotated<'_> {
 
     /// Lists the angles of A to F.
     fn push<S: Scalar>(&self, arm: &[Pair<S>; 3], three: &[Pair<S>; 3], found: &mut Candidates) {
-        let mut angles = [S::zero(); 6];
-        for (k, (cos, sin)) in arm.iter().chain(three).enumerate() {
-            angles[(self.first + 3 + k) % 6] = S::angle_of(*cos, *sin);
+        let mut pairs = [(S::zero(), S::zero()); 6];
+        for (k, pair) in arm.iter().chain(three).enumerate() {
+            pairs[(self.first + 3 + k) % 6] = *pair;
         }
-        found.push(&angles);
+        found.push(&pairs);
     }
 }
 
