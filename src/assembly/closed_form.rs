@@ -4,21 +4,20 @@
 use super::lane_finish::Finish;
 use super::mode::{Mode, are_all_apart};
 use super::search::Search;
+use super::side_by_side::{Done, Pairs, SideBySide};
 use crate::algebra::double_double::DoubleDouble;
 use crate::certify::from_pairs;
 use crate::kinematics::closed_loop::ClosedLoop;
-use crate::solve::decoupled::{Candidates, MOST, Pairs};
-use crate::solve::lane_closure::{Angular, normalised};
-use crate::solve::lanes::{ComplexLanes, Lanes, WIDTH};
 use crate::solve::scalar::{Scalar, extended};
-use num_complex::Complex;
-use pulp::{Arch, Simd, WithSimd};
+use pulp::Arch;
 use std::cell::LazyCell;
 
 /// A loop of exact constants, rounded once.
 type Exact = ClosedLoop<DoubleDouble>;
 /// The same, made where it is first asked for.
 type Lazy<'a> = LazyCell<Option<Exact>, &'a dyn Fn() -> Option<Exact>>;
+/// No constants but those that are stored.
+pub(super) const STORED: &dyn Fn() -> Option<Exact> = &|| None;
 
 impl Search<'_> {
     /// Lists the candidates of the closed form, if there is one. Returns whether as many are proved as the loop can have;
@@ -33,12 +32,12 @@ impl Search<'_> {
         if candidates.count() < most(candidates.count()) {
             return false;
         }
+        let (real, complex) = (candidates.real(), candidates.complex());
         let finish = Finish::new(self.closed, self.gap_rounding);
-        let modes = &mut self.assembly.modes;
-        let [real, complex] = Arch::new().dispatch(SideBySide { finish, candidates: &candidates, modes });
+        let done = Arch::new().dispatch(SideBySide { finish, real, complex, modes: &mut self.assembly.modes });
         // What is not proved side by side is looked at alone.
         let exact = LazyCell::new(exact);
-        let all = self.alone(candidates.real(), &real, &exact) && self.alone(candidates.complex(), &complex, &exact);
+        let all = self.alone(real, &done[0], &exact) && self.alone(complex, &done[1], &exact);
         let variables = &self.closed.variables;
         if all && are_all_apart(variables, &self.assembly.modes) && self.is_full(self.proved(), most) {
             self.assembly.all_resolved = true;
@@ -49,7 +48,7 @@ impl Search<'_> {
     }
 
     /// Lists the candidates that are not done, by longer numbers. Returns whether all are proved.
-    fn alone<S: Scalar>(&mut self, starts: &[Pairs<S>], done: &[bool; MOST], exact: &Lazy<'_>) -> bool {
+    pub(super) fn alone<S: Scalar>(&mut self, starts: &[Pairs<S>], done: &Done, exact: &Lazy<'_>) -> bool {
         starts.iter().zip(done).all(|(pairs, done)| {
             if *done {
                 return true;
@@ -72,83 +71,6 @@ impl Search<'_> {
         }
         self.assembly.modes.push(mode);
         true
-    }
-}
-
-/// Candidates that are polished and proved side by side; which of them are is the result, real ones first.
-struct SideBySide<'a> {
-    finish: Finish<'a>,
-    candidates: &'a Candidates,
-    modes: &'a mut Vec<Mode>,
-}
-
-/// The numbers of a pair: real and imaginary part of the cosine, then of the sine.
-trait Parts {
-    fn parts(&self) -> [f64; 4];
-}
-
-impl Parts for (f64, f64) {
-    fn parts(&self) -> [f64; 4] {
-        [self.0, 0.0, self.1, 0.0]
-    }
-}
-
-impl Parts for (Complex<f64>, Complex<f64>) {
-    fn parts(&self) -> [f64; 4] {
-        [self.0.re, self.0.im, self.1.re, self.1.im]
-    }
-}
-
-impl SideBySide<'_> {
-    /// Polishes and proves candidates, register by register.
-    #[inline(always)]
-    fn list<S: Simd, N: Angular<S>, P: Parts>(
-        &mut self,
-        one: Lanes<S>,
-        starts: &[[P; 6]],
-    ) -> [bool; MOST] {
-        let mut done = [false; MOST];
-        for (chunk, starts) in starts.chunks(S::F64_LANES).enumerate() {
-            // Lanes that are not used do what the first one does.
-            let mut rows = [[[0.0; WIDTH]; 4]; 6];
-            for lane in 0..S::F64_LANES {
-                for (row, pair) in rows.iter_mut().zip(&starts[if lane < starts.len() { lane } else { 0 }]) {
-                    for (row, x) in row.iter_mut().zip(pair.parts()) {
-                        row[lane] = x;
-                    }
-                }
-            }
-            let mut pairs = [[N::of(one); 2]; 6];
-            for (pair, row) in pairs.iter_mut().zip(&rows) {
-                let [a, b, c, d] = row;
-                let cos = N::from_parts(one.loaded(a), one.loaded(b));
-                *pair = normalised([cos, N::from_parts(one.loaded(c), one.loaded(d))]);
-            }
-            let found = self.finish.proved(pairs, one);
-            for lane in 0..starts.len() {
-                let Some(mode) = found.mode(lane) else { continue };
-                done[chunk * S::F64_LANES + lane] = true;
-                if !mode.real {
-                    self.modes.push(mode.conjugate());
-                }
-                self.modes.push(mode);
-            }
-        }
-        done
-    }
-}
-
-impl WithSimd for SideBySide<'_> {
-    type Output = [[bool; MOST]; 2];
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(mut self, simd: S) -> [[bool; MOST]; 2] {
-        let one = Lanes::splat(simd, 1.0);
-        let candidates = self.candidates;
-        [
-            self.list::<S, Lanes<S>, _>(one, candidates.real()),
-            self.list::<S, ComplexLanes<S>, _>(one, candidates.complex()),
-        ]
     }
 }
 

@@ -14,6 +14,7 @@ mod proof;
 mod real_list;
 mod search;
 mod shifted;
+mod side_by_side;
 mod solver;
 mod spherical;
 pub mod ss_dyad;

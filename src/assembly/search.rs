@@ -1,10 +1,13 @@
 //! The search for the solutions of one pose: cut after cut, root after root, until nothing is missing.
 
 use super::limits;
-use super::mode::{Assembly, Hits, Mode, Roots, distance, wrapped};
+use super::closed_form::STORED;
+use super::lane_finish::Finish;
+use super::mode::{Assembly, Hits, Mode, Roots, are_all_apart, distance, wrapped};
 use super::prepared::PreparedCut;
 use super::proof::certificate_in_reach;
 use super::shifted::Shifted;
+use super::side_by_side::{self, SideBySide};
 use super::spherical::canonical;
 use crate::certify::{Refined, certificate, certificate_in_any_frame, refined_certificate_of};
 use crate::closure::half_angle::{HalfAngleForm, half_angle_form};
@@ -19,12 +22,15 @@ use crate::solve::curve::CLOSES_WITHIN;
 use crate::solve::decoupled::Decoupled;
 use crate::solve::dense;
 use crate::solve::eigen::{EigenWorkspace, Method};
-use crate::solve::kernel::{SHARED, at_root, double_angle, kernel};
+use crate::solve::kernel::{SHARED, at_root, kernel};
 use crate::solve::newton::{Polished, Six, approach, approach_singular, closure, polish, reach};
 use crate::solve::scalar::Scalar;
 use crate::solve::self_motion::{SelfMotion, self_motions};
+use crate::solve::separated::unshifted;
 use crate::solve::singular::{Nature, nature, pair, spread};
 use num_complex::Complex;
+use pulp::Arch;
+use std::cell::LazyCell;
 
 /// A cut, the loop in the order of the cut, and its elimination.
 type Ready = (Cut, ClosedLoop<f64>, HalfAngleForm<f64>);
@@ -78,7 +84,7 @@ impl Search<'_> {
             Effort::Pencils(most) | Effort::All(most) => most,
         };
         let is_asked = self.roots == Roots::All && matches!(self.effort, Effort::All(_));
-        if is_asked && self.by_closed_form(most, &|| None) {
+        if is_asked && self.by_closed_form(most, STORED) {
             return;
         }
         match general_degree(self.closed.variables) {
@@ -230,8 +236,64 @@ impl Search<'_> {
             let roots = self.eigen.companion(method, &constant, &linear);
             let mut family =
                 OfPencil { cut, view, form, shifted, real: CutView::new(view, form, shifted.hidden), complex: None };
+            if method == Method::Francis && roots.as_ref().is_some_and(|roots| self.all_at_once(&mut family, roots)) {
+                return true;
+            }
             roots.is_some_and(|roots| self.all_roots(&mut family, &roots)) || self.is_full(self.proved(), most)
         })
+    }
+
+    /// Lists the solutions of sixteen simple roots, all polished and proved side by side. Returns whether that succeeds; otherwise the list is
+    /// as it was.
+    fn all_at_once(&mut self, family: &mut OfPencil<'_>, roots: &[Complex<f64>]) -> bool {
+        let is_general = self.closed.variables == [Variable::Rotation; 6] && self.assembly.modes.is_empty();
+        if self.roots != Roots::All || !is_general || roots.len() != side_by_side::MOST {
+            return false;
+        }
+        let none = Complex::new(0.0, 0.0);
+        let (mut real, mut complex) = ([[(0.0, 0.0); 6]; side_by_side::MOST], [[(none, none); 6]; side_by_side::MOST]);
+        let (mut reals, mut pairs) = (0, 0);
+        for &x in roots {
+            let size = 1.0 + x.norm_sqr();
+            // Roots at infinity and nearly double ones are for other ways.
+            let is_far = (1.0 + x * x).norm() < limits::INFINITE * size;
+            if is_far || x.im != 0.0 && x.im.abs() < limits::NEAR_REAL * size {
+                return false;
+            }
+            if x.im == 0.0 {
+                let Some(found) = family.real.simple(family.shifted, x.re) else { return false };
+                real[reals] = self.pairs_in_loop_order(family.cut, &found);
+                reals += 1;
+            } else if x.im > 0.0 {
+                let view = family.complex.get_or_insert_with(|| {
+                    CutView::new(family.view, family.form, family.shifted.hidden)
+                });
+                let Some(found) = view.simple(family.shifted, x) else { return false };
+                complex[pairs] = self.pairs_in_loop_order(family.cut, &found);
+                pairs += 1;
+            }
+        }
+        let finish = Finish::new(self.closed, self.gap_rounding);
+        let (real, complex) = (&real[..reals], &complex[..pairs]);
+        let done = Arch::new().dispatch(SideBySide { finish, real, complex, modes: &mut self.assembly.modes });
+        let stored = LazyCell::new(STORED);
+        let all = self.alone(real, &done[0], &stored) && self.alone(complex, &done[1], &stored);
+        let modes = &mut self.assembly.modes;
+        if all && modes.len() == side_by_side::MOST && are_all_apart(&self.closed.variables, modes) {
+            (self.assembly.all_resolved, self.assembly.real_resolved) = (true, true);
+            return true;
+        }
+        modes.clear();
+        false
+    }
+
+    /// Returns cosines and sines of the unknowns of a cut in the order and direction of the loop.
+    fn pairs_in_loop_order<S: Scalar>(&self, cut: Cut, pairs: &[(S, S); 6]) -> [(S, S); 6] {
+        let mut ordered = *pairs;
+        for (j, (cos, sin)) in pairs.iter().enumerate() {
+            ordered[self.arrangement.0[cut.unknown_index(j)]] = (*cos, if cut.reversed { sin.neg() } else { *sin });
+        }
+        ordered
     }
 
     /// Admits the solutions of the roots of a polynomial. Returns whether all of the roots are resolved.
@@ -295,10 +357,7 @@ impl Search<'_> {
             dimension: kernel.dimension,
             separation: kernel.separation,
         };
-        let Some(turned) = double_angle(S::one(), x) else { return outcome };
-        // Undo the rotation of the hidden variable: q = q' + offset.
-        let (cos, sin) = shifted.offset;
-        let hidden = (turned.0.times(cos).sub(&turned.1.times(sin)), turned.1.times(cos).add(&turned.0.times(sin)));
+        let Some(hidden) = unshifted(x, shifted.offset) else { return outcome };
         let candidates = view.candidates(hidden, &kernel);
         outcome.unresolved = candidates.unresolved;
         outcome.settled = !candidates.as_slice().is_empty();
@@ -668,6 +727,17 @@ impl Family for OfPencil<'_> {
     fn complex(&mut self, search: &mut Search<'_>, x: Complex<f64>) -> RootOutcome {
         let view = self.complex.get_or_insert_with(|| CutView::new(self.view, self.form, self.shifted.hidden));
         search.one_root(self.cut, view, self.shifted, x)
+    }
+}
+
+impl<S: Scalar> CutView<'_, S> {
+    /// Returns cosines and sines of the unknowns of a cut at a root of its pencil to which one solution belongs.
+    fn simple(&self, shifted: &Shifted, x: S) -> Option<[(S, S); 6]> {
+        let kernel = kernel(&at_root(&shifted.pencil, x), SHARED);
+        if kernel.dimension != 1 {
+            return None;
+        }
+        self.pairs_of(unshifted(x, shifted.offset)?, &kernel.basis[0])
     }
 }
 
