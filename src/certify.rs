@@ -31,7 +31,8 @@ pub mod pose;
 mod refined;
 
 pub use refined::{
-    Refined, exponential, exponential_pair, from_pairs, refined_certificate, refined_certificate_of, small_turn,
+    Refined, exponential, exponential_pair, from_pairs, refined_certificate, refined_certificate_of, refined_exactly,
+    small_turn,
 };
 
 use crate::elimination::cut::Cut;

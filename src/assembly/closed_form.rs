@@ -6,9 +6,9 @@ use super::mode::{Mode, are_all_apart};
 use super::search::Search;
 use super::side_by_side::{Done, Pairs, SideBySide};
 use crate::algebra::double_double::DoubleDouble;
-use crate::certify::from_pairs;
+use crate::certify::refined_exactly;
 use crate::kinematics::closed_loop::ClosedLoop;
-use crate::solve::scalar::{Scalar, extended};
+use crate::solve::scalar::Scalar;
 use pulp::Arch;
 use std::cell::LazyCell;
 
@@ -55,10 +55,9 @@ impl Search<'_> {
             }
             let start = pairs.map(|(cos, sin)| S::angle_of(cos, sin).to_complex());
             let mode = self.proved_mode(&start).or_else(|| {
-                // Near singular positions the rounding of the pose to f64 moves a solution beyond its neighbour.
-                let exact = exact.as_ref()?;
-                let long = |x: S| extended::<DoubleDouble>(x.to_complex());
-                self.refined_mode(from_pairs(exact, &pairs.map(|(cos, sin)| (long(cos), long(sin))))?)
+                // Near singular positions the rounding of the pose to f64 moves a solution beyond its neighbour, where that is real.
+                let exact = exact.as_ref().filter(|_| S::REAL)?;
+                self.refined_mode(refined_exactly(exact, &start.map(|z| z.re))?)
             });
             mode.filter(|mode| mode.real == S::REAL).is_some_and(|mode| self.list(mode))
         })

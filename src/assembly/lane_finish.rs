@@ -27,8 +27,6 @@ const ROUNDING: f64 = 4e-15;
 /// The squares of cosine and sine of real angles add up to 1 within so much: then each is off by 8 half units in the last place at most,
 /// which [`ROUNDINGS`] holds.
 const OFF_CIRCLE: f64 = 16.0 * ROUNDOFF;
-/// Half units in the last place that the sum of the squares of a complex pair is off as computed, in parts of the sum of their sizes.
-const SQUARES: f64 = 8.0;
 
 /// A loop of rotations at one pose.
 #[derive(Clone, Copy)]
@@ -49,8 +47,6 @@ pub(super) struct Found {
     isolation: Row,
     residual: Row,
     condition: Row,
-    /// How far the pairs of complex angles are from the circle.
-    off_circle: Row,
     is_real: bool,
 }
 
@@ -100,7 +96,6 @@ impl<'a> Finish<'a> {
             isolation: [f64::NAN; WIDTH],
             residual: [0.0; WIDTH],
             condition: [0.0; WIDTH],
-            off_circle: [0.0; WIDTH],
             is_real: N::REAL,
         };
         for (rows, pair) in found.angles.iter_mut().zip(pairs) {
@@ -127,7 +122,7 @@ impl<'a> Finish<'a> {
             of_gap = at.lengths[j].norm * at.lengths[j + 1].inverse * (constant * turn);
             growth = growth.max(of_gap);
             let wrong = one.like(ROUNDINGS * ROUNDOFF);
-            let wrong = if N::REAL { wrong } else { wrong + off_by(pairs[j]) };
+            let wrong = if N::REAL { wrong } else { wrong + N::off_circle(pairs[j]) };
             rounding = of_gap.fma(wrong, rounding);
             twist = twist + at.lengths[j].twist;
             lever = lever + at.lengths[j].lever;
@@ -190,7 +185,7 @@ impl<'a> Finish<'a> {
         let bounds = [y, z0, twists];
         let x = radius * twists;
         let growth = x.fma(x, x + one);
-        // The distance of complex pairs from the circle is in the error of every step; it is small enough for that of its root.
+        // The distance of complex pairs from the circle is in the error of every step.
         let most_off = if N::REAL { OFF_CIRCLE } else { 1e-3 };
         let is_sound = all.below(zero.like(f64::MAX)).and(off_circle.at_most(zero.like(most_off)));
         let is_proved = works(bounds, radius, bend * growth)
@@ -208,10 +203,6 @@ impl<'a> Finish<'a> {
         let nothing = zero.like(f64::NAN);
         is_proved.select(radius, nothing).store(&mut found.radius, 0);
         is_proved.select(isolation, nothing).store(&mut found.isolation, 0);
-        if !N::REAL {
-            // The angle is that of the pair on the circle.
-            off_circle.store(&mut found.off_circle, 0);
-        }
     }
 }
 
@@ -223,7 +214,7 @@ impl Found {
             Complex::new(wrapped(re[lane]), im[lane])
         });
         let imaginary = unknowns.iter().fold(0.0_f64, |a, z| a.max(z.im.abs()));
-        let wrong = ANGLE_ERROR * (1.0 + imaginary) + self.off_circle[lane];
+        let wrong = ANGLE_ERROR * (1.0 + imaginary);
         let (radius, isolation) = (self.radius[lane] + wrong, self.isolation[lane] - wrong);
         // NaN fails. What is known so badly is left to longer numbers.
         if !(radius <= isolation && radius < limits::LONE_RADIUS) {
@@ -248,25 +239,12 @@ impl Found {
 /// The root of 2 and a margin.
 const ROOT_2: f64 = 1.4143;
 
-/// How far a complex pair is off that of its angle, in parts of itself. With `c^2 + s^2 = 1 + x` it is `(1 + x)^(-1/2)` times the pair.
-#[inline(always)]
-fn off_by<S: Simd, N: Angular<S>>([cos, sin]: [N; 2]) -> Lanes<S> {
-    let size = sin.square_plus(cos.square_size());
-    let off = cos.mul_add(cos, sin * sin) - N::of(size.like(1.0));
-    off.bound() + size * size.like(SQUARES * ROUNDOFF)
-}
-
 /// How far the pairs are from the circle; NaN may be lost, which shows in the closure.
 #[inline(always)]
 fn off_circle<S: Simd, N: Angular<S>>(pairs: &Pairs<N>, one: Lanes<S>) -> Lanes<S> {
     let mut most = one.like(0.0);
-    for [cos, sin] in pairs {
-        let off = if N::REAL {
-            (cos.mul_add(*cos, *sin * *sin) - N::of(one)).bound()
-        } else {
-            off_by([*cos, *sin])
-        };
-        most = most.max(off);
+    for pair in pairs {
+        most = most.max(N::off_circle(*pair));
     }
     most
 }

@@ -17,7 +17,7 @@ use crate::closure::woernle_lee::MarkedLine;
 use crate::elimination::cut::{Cut, Hidden};
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::kinematics::motion::Motion;
-use crate::solve::lane_closure::{Pairs, normalised};
+use crate::solve::lane_closure::{Angular, Pairs};
 use crate::solve::lanes::Lanes;
 use pulp::{Arch, Simd, WithSimd};
 
@@ -279,8 +279,8 @@ impl Place<'_> {
                 *value = x.fma(zero.like(*factor), *value);
             }
         }
-        let fifth = normalised([last[0], last[1]]);
-        let fourth = normalised([last[2], last[3]]);
+        let fifth = Lanes::normalised([last[0], last[1]]);
+        let fourth = Lanes::normalised([last[2], last[3]]);
         // The x axis of the closing transformation, carried through the loop, is turned by unknown 6.
         let row = &self.last.rotation[0];
         let mut x = [zero.like(row[0]), zero.like(row[1]), zero.like(row[2])];
@@ -292,7 +292,7 @@ impl Place<'_> {
                 *slot = old[0].fma(zero.like(g[0][j]), old[1].fma(zero.like(g[1][j]), old[2] * zero.like(g[2][j])));
             }
         }
-        [one, two, third, fourth, fifth, normalised([x[0], x[1]])]
+        [one, two, third, fourth, fifth, Lanes::normalised([x[0], x[1]])]
     }
 
     /// Returns the unknowns in the order and direction of the loop.

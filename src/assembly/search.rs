@@ -261,14 +261,14 @@ impl Search<'_> {
                 return false;
             }
             if x.im == 0.0 {
-                let Some(found) = family.real.simple(family.shifted, x.re) else { return false };
+                let Some(found) = simple(&family.real, family.shifted, x.re) else { return false };
                 real[reals] = self.pairs_in_loop_order(family.cut, &found);
                 reals += 1;
             } else if x.im > 0.0 {
                 let view = family.complex.get_or_insert_with(|| {
                     CutView::new(family.view, family.form, family.shifted.hidden)
                 });
-                let Some(found) = view.simple(family.shifted, x) else { return false };
+                let Some(found) = simple(view, family.shifted, x) else { return false };
                 complex[pairs] = self.pairs_in_loop_order(family.cut, &found);
                 pairs += 1;
             }
@@ -730,15 +730,13 @@ impl Family for OfPencil<'_> {
     }
 }
 
-impl<S: Scalar> CutView<'_, S> {
-    /// Returns cosines and sines of the unknowns of a cut at a root of its pencil to which one solution belongs.
-    fn simple(&self, shifted: &Shifted, x: S) -> Option<[(S, S); 6]> {
-        let kernel = kernel(&at_root(&shifted.pencil, x), SHARED);
-        if kernel.dimension != 1 {
-            return None;
-        }
-        self.pairs_of(unshifted(x, shifted.offset)?, &kernel.basis[0])
+/// Returns cosines and sines of the unknowns of a cut at a root of its pencil to which one solution belongs.
+fn simple<S: Scalar>(view: &CutView<'_, S>, shifted: &Shifted, x: S) -> Option<[(S, S); 6]> {
+    let kernel = kernel(&at_root(&shifted.pencil, x), SHARED);
+    if kernel.dimension != 1 {
+        return None;
     }
+    view.pairs_of(unshifted(x, shifted.offset)?, &kernel.basis[0])
 }
 
 /// The result of following one root.

@@ -2,7 +2,7 @@
 
 use super::lane_finish::Finish;
 use super::mode::Mode;
-use crate::solve::lane_closure::{Angular, normalised};
+use crate::solve::lane_closure::Angular;
 use crate::solve::lanes::{ComplexLanes, Lanes, WIDTH};
 use num_complex::Complex;
 use pulp::{Simd, WithSimd};
@@ -67,7 +67,7 @@ impl SideBySide<'_> {
             for (pair, row) in pairs.iter_mut().zip(&rows) {
                 let [a, b, c, d] = row;
                 let cos = N::from_parts(one.loaded(a), one.loaded(b));
-                *pair = normalised([cos, N::from_parts(one.loaded(c), one.loaded(d))]);
+                *pair = N::normalised([cos, N::from_parts(one.loaded(c), one.loaded(d))]);
             }
             let found = self.finish.proved(pairs, one);
             for lane in 0..starts.len() {
@@ -90,5 +90,116 @@ impl WithSimd for SideBySide<'_> {
     fn with_simd<S: Simd>(mut self, simd: S) -> [Done; 2] {
         let one = Lanes::splat(simd, 1.0);
         [self.list::<S, Lanes<S>, _>(one, self.real), self.list::<S, ComplexLanes<S>, _>(one, self.complex)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::algebra::double_double::DoubleDouble;
+    use crate::algebra::ring::Ring;
+    use crate::assembly::{Assembly, Roots, Solver, Workspace, distance};
+    use crate::certify::refined_certificate;
+    use crate::kinematics::closed_loop::{ClosedLoop, OpenLoop, Variable};
+    use crate::kinematics::motion::Motion;
+    use rand::{Rng, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+    use std::f64::consts::PI;
+
+    const UNKNOWNS: [Variable; 6] = [Variable::Rotation; 6];
+
+    fn prepared(links: &[Motion<f64>; 6]) -> Solver {
+        Solver::prepare(&OpenLoop {
+            variables: UNKNOWNS,
+            constants: std::array::from_fn(|k| links[k].clone()),
+            before_gap: links[5].clone(),
+            after_gap: Motion::identity(),
+        })
+    }
+
+    /// Every ball holds the solution that double-double numbers prove nearby, and complex balls no real one.
+    #[test]
+    fn balls_hold_the_solutions_of_longer_numbers() {
+        let mut random = ChaCha8Rng::seed_from_u64(21);
+        let (mut workspace, mut all) = (Workspace::default(), Assembly::default());
+        let (mut checked, mut complex) = (0, 0);
+        for _ in 0..60 {
+            let links: [Motion<f64>; 6] = std::array::from_fn(|_| {
+                let mut value = |size: f64| random.random_range(-size..size);
+                let (a, alpha, d) = (value(0.5), value(3.0), value(0.5));
+                Motion { translation: [a, 0.0, d], ..Motion::rotation_x(f64::cos(alpha), f64::sin(alpha)) }
+            });
+            let solver = prepared(&links);
+            let mut reached = Motion::<f64>::identity();
+            for link in &links {
+                let (sin, cos) = random.random_range(-PI..PI).sin_cos();
+                reached = reached.then_after(&Motion::rotation_z(cos, sin)).then_after(link);
+            }
+            let gap = solver.gap(&reached.inverse());
+            solver.solve_up_to(&gap, Roots::All, &|_| usize::MAX, &mut workspace, &mut all);
+            let (closed, _) = solver.closed(&gap);
+            for mode in &all.modes {
+                let (Some(proof), Some(longer)) = (mode.certificate, refined_certificate(&closed, &mode.unknowns)) else {
+                    continue;
+                };
+                let apart = distance(&UNKNOWNS, &mode.unknowns, &longer.unknowns);
+                assert!(apart <= proof.radius + longer.certificate.radius, "{apart}: {mode:?}");
+                assert!(mode.real == longer.real && proof.radius < 1e-7, "{mode:?}");
+                (checked, complex) = (checked + 1, complex + usize::from(!mode.real));
+            }
+        }
+        assert!(checked > 900 && complex > 500, "{checked} solutions, {complex} of them complex");
+    }
+
+    /// Near singular positions of the wrist, where two solutions come as near as 1e-6, all are told apart for the exact pose.
+    #[test]
+    fn poses_near_a_singular_wrist_have_all_solutions() {
+        let (quarter, none) = ((0.0, 1.0), (1.0, 0.0));
+        let back = (0.0, -1.0);
+        let rows = [
+            (0.0, quarter, 0.0),
+            (0.4318, none, 0.0),
+            (0.0203, back, 0.15005),
+            (0.0, quarter, 0.4318),
+            (0.0, back, 0.0),
+            (0.0, none, 0.1),
+        ];
+        let links = rows.map(|(a, (cos, sin), d)| Motion { translation: [a, 0.0, d], ..Motion::rotation_x(cos, sin) });
+        let solver = prepared(&links);
+        let long = |motion: &Motion<f64>| Motion {
+            rotation: motion.rotation.map(|row| row.map(DoubleDouble::from)),
+            translation: motion.translation.map(DoubleDouble::from),
+        };
+        let mut random = ChaCha8Rng::seed_from_u64(22);
+        let (mut workspace, mut all) = (Workspace::default(), Assembly::default());
+        for number in 0..40 {
+            let near = 10_f64.powf(-1.0 - 5.0 * f64::from(number) / 40.0);
+            let mut q: [f64; 6] = std::array::from_fn(|_| random.random_range(-PI..PI));
+            q[4] = near;
+            let mut reached = Motion::<DoubleDouble>::identity();
+            for (angle, link) in q.iter().zip(&links) {
+                let (sin, cos) = angle.sin_cos();
+                let (cos, sin) = (DoubleDouble::from(cos), DoubleDouble::from(sin));
+                // On the circle: 1 over the root of 1 + x is 1 - x/2 + 3 x^2/8 to double-double rounding.
+                let off = cos.mul(&cos).add(&sin.mul(&sin)).sub(&DoubleDouble::one());
+                let bend = DoubleDouble::from(0.375).mul(&off).sub(&DoubleDouble::from(0.5));
+                let scale = DoubleDouble::one().add(&off.mul(&bend));
+                let turn = Motion::rotation_z(cos.mul(&scale), sin.mul(&scale));
+                reached = reached.then_after(&turn).then_after(&long(link));
+            }
+            let closing = reached.inverse();
+            let entry = |x: &DoubleDouble| x.to_f64();
+            let gap = solver.gap(&Motion {
+                rotation: closing.rotation.each_ref().map(|row| row.each_ref().map(entry)),
+                translation: closing.translation.each_ref().map(entry),
+            });
+            let mut constants = links.each_ref().map(long);
+            constants[5] = constants[5].then_after(&closing);
+            let exact = || Some(ClosedLoop { variables: UNKNOWNS, constants: constants.clone() });
+            assert!(solver.solve_in_closed_form(&gap, &|_| 8, &exact, &mut workspace, &mut all), "{near}: {q:?}");
+            assert_eq!(all.modes.len(), 8);
+            let start = q.map(num_complex::Complex::from);
+            let is_it = |mode: &crate::assembly::Mode| distance(&UNKNOWNS, &mode.unknowns, &start) < 1e-12;
+            assert!(all.modes.iter().any(is_it), "{near}: {q:?}");
+        }
     }
 }

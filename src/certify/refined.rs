@@ -281,13 +281,13 @@ pub fn refined_certificate(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>
 #[must_use]
 pub fn refined_certificate_of(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>>, off: f64) -> Option<Refined> {
     let data = Data::of(closed, &[0.0, 0.0, 0.0, 0.0, 0.0, off]);
+    let variables = closed.variables;
+    let precise = ClosedLoop { variables, constants: closed.constants.each_ref().map(rigid) };
     if unknowns.iter().all(|z| z.im == 0.0)
-        && let Some(refined) = refined_real(closed, &unknowns.map(|z| z.re), data)
+        && let Some(refined) = refined_real(&precise, &unknowns.map(|z| z.re), Some(data))
     {
         return Some(refined);
     }
-    let variables = closed.variables;
-    let precise = ClosedLoop { variables, constants: closed.constants.each_ref().map(rigid) };
     let state: Six<Quad> = std::array::from_fn(|j| match variables[j] {
         Variable::Rotation => exponential(unknowns[j]),
         Variable::Translation => extended(unknowns[j]),
@@ -325,11 +325,16 @@ fn on_circle(cos: DoubleDouble, sin: DoubleDouble) -> (DoubleDouble, DoubleDoubl
     (cos.mul(&scale), sin.mul(&scale))
 }
 
+/// Proves real unknowns known in f64 for a loop of constants that are known to double-double rounding.
+#[must_use]
+pub fn refined_exactly(closed: &ClosedLoop<DoubleDouble>, unknowns: &Six<f64>) -> Option<Refined> {
+    refined_real(closed, unknowns, None)
+}
+
 /// As [`refined_certificate`] for a real solution, in real arithmetic, at a third of the cost; `None` also if only
-/// another frame would prove it.
-fn refined_real(closed: &ClosedLoop<f64>, unknowns: &Six<f64>, data: Data) -> Option<Refined> {
-    let variables = closed.variables;
-    let precise = ClosedLoop { variables, constants: closed.constants.each_ref().map(rigid) };
+/// another frame would prove it. Without `data` the constants are exact.
+fn refined_real(precise: &ClosedLoop<DoubleDouble>, unknowns: &Six<f64>, data: Option<Data>) -> Option<Refined> {
+    let variables = precise.variables;
     let reach = reach(&variables, &unknowns.map(Complex::from));
     let mut pairs: [(DoubleDouble, DoubleDouble); 6] = std::array::from_fn(|j| match variables[j] {
         Variable::Rotation => on_circle(unknowns[j].cos().into(), unknowns[j].sin().into()),
@@ -337,7 +342,7 @@ fn refined_real(closed: &ClosedLoop<f64>, unknowns: &Six<f64>, data: Data) -> Op
     });
     let mut before = f64::INFINITY;
     loop {
-        let mut here = closure_at::<DoubleDouble>(&precise, &pairs);
+        let mut here = closure_at::<DoubleDouble>(precise, &pairs);
         let rough = inverse(&here.jacobian.map(|row| row.map(DoubleDouble::to_f64)))?;
         let rough = rough.map(|row| row.map(DoubleDouble::from));
         let step = times(&rough, &here.residual);
@@ -347,8 +352,11 @@ fn refined_real(closed: &ClosedLoop<f64>, unknowns: &Six<f64>, data: Data) -> Op
             return None;
         }
         if size < 1e-26 || stalls {
-            let view = View::of(&precise, &pairs, &rough, |x| x.to_f64().into());
-            let proof = of_stored(&mut here, &rough, data, &view)?;
+            let view = || View::of(precise, &pairs, &rough, |x| x.to_f64().into());
+            let proof = match data {
+                Some(data) => of_stored(&mut here, &rough, data, &view()),
+                None => certificate(&here, &rough),
+            }?;
             let values: Six<f64> = std::array::from_fn(|j| match (variables[j], pairs[j]) {
                 (Variable::Rotation, (cos, sin)) => sin.to_f64().atan2(cos.to_f64()),
                 (Variable::Translation, (distance, _)) => distance.to_f64(),
@@ -381,11 +389,9 @@ fn refined_real(closed: &ClosedLoop<f64>, unknowns: &Six<f64>, data: Data) -> Op
 }
 
 /// Maximum number of Newton steps from a start that is nearly as exact as its numbers.
-const MOST_STEPS: usize = 10;
+const MOST_STEPS: usize = 8;
 /// A step below this ends the iteration.
 const SETTLED: f64 = 1e-30;
-/// A step that is below this and not half of the one before does so, too.
-const STALLED: f64 = 1e-18;
 
 /// Proves, in the arithmetic of exact constants, cosines, sines and distances that nearly close the loop.
 #[must_use]
@@ -405,7 +411,6 @@ pub fn from_pairs<R: Extended>(closed: &ClosedLoop<R>, pairs: &Pairs<R>) -> Opti
     }
     let reach = reach(&closed.variables, &state.map(narrowed));
     let mut at = Approach { closed, state, reach };
-    let mut before = f64::INFINITY;
     for _ in 0..MOST_STEPS {
         let pairs = at.pairs()?;
         let (here, inverse, step) = at.newton(&pairs, inverse)?;
@@ -413,15 +418,13 @@ pub fn from_pairs<R: Extended>(closed: &ClosedLoop<R>, pairs: &Pairs<R>) -> Opti
         if !(size < 0.3) {
             return None;
         }
-        // Beside another solution steps of double-double numbers do not become so small.
-        if (size < SETTLED || size < STALLED && !(size < 0.5 * before))
+        if size < SETTLED
             && let Some(proof) = certificate(&here, &inverse).or_else(|| in_any_frame(closed, &pairs, at.reach, None))
         {
             let told = at.told(proof, norm(&here.jacobian) * norm(&inverse));
             // Unknowns without an f64 cannot be reported.
             return told.unknowns.iter().all(|z| z.is_finite()).then_some(told);
         }
-        before = size;
         at.step_back(&step);
     }
     None

@@ -1,6 +1,6 @@
 //! The closure of loops of rotations at several places side by side, the inverse of its derivative, and angles.
 
-use super::lanes::{ComplexLanes, LaneNumber, Lanes, Row, WIDTH};
+use super::lanes::{ComplexLanes, LaneNumber, Lanes, Mask, Row, WIDTH};
 use crate::kinematics::motion::Motion;
 use pulp::Simd;
 
@@ -30,8 +30,14 @@ pub struct Lengths<S: Simd> {
 pub trait Angular<S: Simd>: LaneNumber<S> {
     /// Whether the angles are real.
     const REAL: bool;
+    /// Returns a pair that is off the circle by little, on it to rounding.
+    fn on_circle(pair: [Self; 2]) -> [Self; 2];
+    /// Returns a pair of any length on the circle.
+    fn normalised(pair: [Self; 2]) -> [Self; 2];
     /// Bounds the norms of a frame.
     fn lengths(rotation: &[[Self; 3]; 3], translation: &[Self; 3]) -> Lengths<S>;
+    /// Bounds how far a pair is off that of the angle that [`Self::angle`] computes, both numbers together, in parts of their sizes.
+    fn off_circle(pair: [Self; 2]) -> Lanes<S>;
     /// Returns the angle of a pair on the circle: real part and imaginary part, each within [`ANGLE_ERROR`] and that many parts of the
     /// imaginary part.
     fn angle(pair: [Self; 2]) -> [Row; 2];
@@ -59,12 +65,31 @@ impl<S: Simd> Angular<S> for Lanes<S> {
     const REAL: bool = true;
 
     #[inline(always)]
+    fn on_circle([cos, sin]: [Self; 2]) -> [Self; 2] {
+        let square = cos.fma(cos, sin * sin);
+        // One step of Newton's method towards one over the root.
+        let factor = square.fma(cos.like(-0.5), cos.like(1.5));
+        [cos * factor, sin * factor]
+    }
+
+    #[inline(always)]
+    fn normalised([cos, sin]: [Self; 2]) -> [Self; 2] {
+        let over = cos.like(1.0) / cos.fma(cos, sin * sin).sqrt();
+        [cos * over, sin * over]
+    }
+
+    #[inline(always)]
     fn lengths(_: &[[Self; 3]; 3], [x, y, z]: &[Self; 3]) -> Lengths<S> {
         // Rows of a rotation are unit vectors, and the inverse moves the origin by the same distance.
         let distance = x.fma(*x, y.fma(*y, *z * *z)).sqrt();
         let norm = distance + x.like(ROOT_3);
         let lever = distance.fma(x.like(ROOT_3 * ROOT_3), x.like(ROOT_3));
         Lengths { norm, inverse: norm, twist: distance + x.like(ROOT_2), lever }
+    }
+
+    #[inline(always)]
+    fn off_circle([cos, sin]: [Self; 2]) -> Self {
+        (cos.fma(cos, sin * sin) - cos.like(1.0)).abs()
     }
 
     #[inline(always)]
@@ -77,6 +102,24 @@ impl<S: Simd> Angular<S> for Lanes<S> {
 
 impl<S: Simd> Angular<S> for ComplexLanes<S> {
     const REAL: bool = false;
+
+    #[inline(always)]
+    fn on_circle(pair: [Self; 2]) -> [Self; 2] {
+        // From the larger of e^(i q) and e^(-i q) both follow without cancellation.
+        let (larger, is_minus) = pair.larger_exponential();
+        let other = larger.inverse();
+        let half = larger.re.like(0.5);
+        let (sum, difference) = ((larger + other).times(half), (larger - other).times(half));
+        // sin = -i (w - 1/w) / 2
+        let sin = Self { re: difference.im, im: -difference.re };
+        [sum, Self::selected(is_minus, -sin, sin)]
+    }
+
+    #[inline(always)]
+    fn normalised([cos, sin]: [Self; 2]) -> [Self; 2] {
+        let over = cos.mul_add(cos, sin * sin).root().inverse();
+        Self::on_circle([cos * over, sin * over])
+    }
 
     #[inline(always)]
     fn lengths(r: &[[Self; 3]; 3], t: &[Self; 3]) -> Lengths<S> {
@@ -99,12 +142,18 @@ impl<S: Simd> Angular<S> for ComplexLanes<S> {
     }
 
     #[inline(always)]
-    fn angle([cos, sin]: [Self; 2]) -> [Row; 2] {
-        // e^(i q) and e^(-i q); the larger one keeps its digits.
-        let plus = Self { re: cos.re - sin.im, im: cos.im + sin.re };
-        let minus = Self { re: cos.re + sin.im, im: cos.im - sin.re };
-        let is_minus = plus.square_size().below(minus.square_size());
-        let larger = Self::selected(is_minus, minus, plus);
+    fn off_circle(pair: [Self; 2]) -> Lanes<S> {
+        // With w = e^(i q), the larger one, and c^2 + s^2 = 1 + x the other one is (1 + x)/w in place of 1/w: cosine and sine are off by
+        // |x/w|/2 each, and their sizes add up to |w| at least. Of the square of the length, at most |w|^2 in all, eight half units are lost.
+        let [cos, sin] = pair;
+        let (larger, _) = pair.larger_exponential();
+        let off = cos.mul_add(cos, sin * sin) - Self::of(cos.re.like(1.0));
+        (off.bound() / larger.square_size() + cos.re.like(8.0 * f64::EPSILON)) * cos.re.like(1.5)
+    }
+
+    #[inline(always)]
+    fn angle(pair: [Self; 2]) -> [Row; 2] {
+        let (larger, is_minus) = pair.larger_exponential();
         let square = larger.square_size();
         let over = square.like(1.0) / square.sqrt();
         let turn = angle_of([larger.re * over, larger.im * over]);
@@ -116,6 +165,23 @@ impl<S: Simd> Angular<S> for ComplexLanes<S> {
             *x = half * x.ln();
         }
         [re, im]
+    }
+}
+
+/// Pairs of complex angles.
+pub trait Exponential<S: Simd> {
+    /// Returns the larger one of `e^(i q)` and `e^(-i q)`, which keeps its digits, and where it is the second one.
+    fn larger_exponential(self) -> (ComplexLanes<S>, Mask<S>);
+}
+
+impl<S: Simd> Exponential<S> for [ComplexLanes<S>; 2] {
+    #[inline(always)]
+    fn larger_exponential(self) -> (ComplexLanes<S>, Mask<S>) {
+        let [cos, sin] = self;
+        let plus = ComplexLanes { re: cos.re - sin.im, im: cos.im + sin.re };
+        let minus = ComplexLanes { re: cos.re + sin.im, im: cos.im - sin.re };
+        let is_minus = plus.square_size().below(minus.square_size());
+        (ComplexLanes::selected(is_minus, minus, plus), is_minus)
     }
 }
 
@@ -266,27 +332,11 @@ pub fn lane_inverse<S: Simd, N: LaneNumber<S>>(columns: &[[N; 6]; 6], one: Lanes
 
 /// Returns cosine and sine of an angle off by a small one, subtracted, to fourth order, over their length.
 #[inline(always)]
-pub fn turned_back<S: Simd, N: LaneNumber<S>>([cos, sin]: [N; 2], angle: N, one: Lanes<S>) -> [N; 2] {
+pub fn turned_back<S: Simd, N: Angular<S>>([cos, sin]: [N; 2], angle: N, one: Lanes<S>) -> [N; 2] {
     let square = angle * angle;
     let by_sin = angle * square.times_plus(one.like(-1.0 / 6.0), N::of(one));
     let by_cos = square.mul_add(square.times_plus(one.like(1.0 / 24.0), N::of(one.like(-0.5))), N::of(one));
-    on_circle([cos.mul_add(by_cos, sin * by_sin), cos.mul_from(by_sin, sin * by_cos)], one)
-}
-
-/// Returns a pair near the circle on it, to rounding.
-#[inline(always)]
-fn on_circle<S: Simd, N: LaneNumber<S>>([cos, sin]: [N; 2], one: Lanes<S>) -> [N; 2] {
-    let square = cos.mul_add(cos, sin * sin);
-    // One step of Newton's method towards one over the root.
-    let factor = square.times_plus(one.like(-0.5), N::of(one.like(1.5)));
-    [cos * factor, sin * factor]
-}
-
-/// Returns a pair over its length.
-#[inline(always)]
-pub fn normalised<S: Simd, N: LaneNumber<S>>([cos, sin]: [N; 2]) -> [N; 2] {
-    let over = cos.mul_add(cos, sin * sin).root().inverse();
-    [cos * over, sin * over]
+    N::on_circle([cos.mul_add(by_cos, sin * by_sin), cos.mul_from(by_sin, sin * by_cos)])
 }
 
 /// Half the width of the two arcs to which an angle below 45 degrees is reduced: their middles are at 11.25 and 33.75 degrees.
