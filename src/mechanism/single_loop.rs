@@ -516,7 +516,9 @@ impl Question<'_> {
         if !self.only_lists && solver.solve_in_closed_form(self.gap, &most, &exact, workspace, assembly) {
             let verdict = self.judge(Roots::All, assembly);
             if is_settled(&verdict) {
-                return verdict;
+                // The list is that of what is asked for.
+                assembly.modes.retain(|mode| mode.real || self.roots == Roots::All);
+                return Verdict { complex_complete: verdict.complex_complete && self.roots == Roots::All, ..verdict };
             }
         }
         let is_first = self.real_first && !solver.is_decoupled();
