@@ -32,7 +32,7 @@ mod refined;
 
 pub use refined::{
     Refined, exponential, exponential_pair, from_pairs, refined_certificate, refined_certificate_of, refined_exactly,
-    small_turn,
+    refined_real_of, small_turn,
 };
 
 use crate::elimination::cut::Cut;

@@ -6,7 +6,7 @@ use super::mode::{Mode, are_all_apart};
 use super::search::Search;
 use super::side_by_side::{Done, Pairs, SideBySide};
 use crate::algebra::double_double::DoubleDouble;
-use crate::certify::refined_exactly;
+use crate::certify::{refined_exactly, refined_real_of};
 use crate::kinematics::closed_loop::ClosedLoop;
 use crate::solve::scalar::Scalar;
 use pulp::Arch;
@@ -54,11 +54,12 @@ impl Search<'_> {
                 return true;
             }
             let start = pairs.map(|(cos, sin)| S::angle_of(cos, sin).to_complex());
-            let mode = self.proved_mode(&start).or_else(|| {
-                // Near singular positions the rounding of the pose to f64 moves a solution beyond its neighbour, where that is real.
-                let exact = exact.as_ref().filter(|_| S::REAL)?;
-                self.refined_mode(refined_exactly(exact, &start.map(|z| z.re))?)
-            });
+            let real = start.map(|z| z.re);
+            let refined = if S::REAL { refined_real_of(self.closed, &real, self.gap_rounding) } else { None };
+            // Near singular positions the rounding of the pose to f64 moves a solution beyond its neighbour, where that is real.
+            let exact = || refined_exactly(exact.as_ref().filter(|_| S::REAL)?, &real);
+            let refined = refined.or_else(exact).and_then(|refined| self.refined_mode(refined));
+            let mode = refined.or_else(|| self.proved_mode(&start));
             mode.filter(|mode| mode.real == S::REAL).is_some_and(|mode| self.list(mode))
         })
     }

@@ -325,6 +325,13 @@ fn on_circle(cos: DoubleDouble, sin: DoubleDouble) -> (DoubleDouble, DoubleDoubl
     (cos.mul(&scale), sin.mul(&scale))
 }
 
+/// As [`refined_certificate_of`] for a real solution in real arithmetic alone, and in the frame of the loop.
+#[must_use]
+pub fn refined_real_of(closed: &ClosedLoop<f64>, unknowns: &Six<f64>, off: f64) -> Option<Refined> {
+    let precise = ClosedLoop { variables: closed.variables, constants: closed.constants.each_ref().map(rigid) };
+    refined_real(&precise, unknowns, Some(Data::of(closed, &[0.0, 0.0, 0.0, 0.0, 0.0, off])))
+}
+
 /// Proves real unknowns known in f64 for a loop of constants that are known to double-double rounding.
 #[must_use]
 pub fn refined_exactly(closed: &ClosedLoop<DoubleDouble>, unknowns: &Six<f64>) -> Option<Refined> {
