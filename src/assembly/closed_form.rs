@@ -22,11 +22,7 @@ pub(super) const STORED: &dyn Fn() -> Option<Exact> = &|| None;
 impl Search<'_> {
     /// Lists the candidates of the closed form, if there is one. Returns whether as many are proved as the loop can have;
     /// otherwise it lists nothing and the pencils decide. `exact` gives the loop with constants rounded once from exact ones, scaled.
-    pub(super) fn by_closed_form(
-        &mut self,
-        most: &dyn Fn(usize) -> usize,
-        exact: &dyn Fn() -> Option<Exact>,
-    ) -> bool {
+    pub(super) fn by_closed_form(&mut self, most: &dyn Fn(usize) -> usize, exact: &dyn Fn() -> Option<Exact>) -> bool {
         let Some(decoupled) = self.decoupled else { return false };
         let candidates = decoupled.candidates(self.closed);
         if candidates.count() < most(candidates.count()) {

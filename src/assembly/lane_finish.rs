@@ -8,9 +8,7 @@ use super::mode::{Hits, Mode, wrapped};
 use crate::certify::Certificate;
 use crate::kinematics::closed_loop::ClosedLoop;
 use crate::kinematics::motion::Motion;
-use crate::solve::lane_closure::{
-    ANGLE_ERROR, Angular, LaneClosure, Pairs, lane_closure, lane_inverse, turned_back,
-};
+use crate::solve::lane_closure::{ANGLE_ERROR, Angular, LaneClosure, Pairs, lane_closure, lane_inverse, turned_back};
 use crate::solve::lanes::{Lanes, Mask, Row, WIDTH};
 use num_complex::Complex;
 use pulp::Simd;

@@ -153,7 +153,8 @@ pub fn are_apart(variables: &[Variable; 6], one: &Mode, two: &Mode) -> bool {
 #[must_use]
 pub fn are_all_apart(variables: &[Variable; 6], modes: &[Mode]) -> bool {
     let is_simple = |mode: &Mode| mode.multiplicity == 1 && mode.certificate.is_some();
-    (0..modes.len()).all(|k| is_simple(&modes[k]) && modes[..k].iter().all(|other| are_apart(variables, other, &modes[k])))
+    (0..modes.len())
+        .all(|k| is_simple(&modes[k]) && modes[..k].iter().all(|other| are_apart(variables, other, &modes[k])))
 }
 
 /// Reduces an angle to (-pi, pi].

@@ -1,8 +1,8 @@
 //! The search for the solutions of one pose: cut after cut, root after root, until nothing is missing.
 
-use super::limits;
 use super::closed_form::STORED;
 use super::lane_finish::Finish;
+use super::limits;
 use super::mode::{Assembly, Hits, Mode, Roots, are_all_apart, distance, wrapped};
 use super::prepared::PreparedCut;
 use super::proof::certificate_in_reach;
@@ -265,9 +265,8 @@ impl Search<'_> {
                 real[reals] = self.pairs_in_loop_order(family.cut, &found);
                 reals += 1;
             } else if x.im > 0.0 {
-                let view = family.complex.get_or_insert_with(|| {
-                    CutView::new(family.view, family.form, family.shifted.hidden)
-                });
+                let view =
+                    family.complex.get_or_insert_with(|| CutView::new(family.view, family.form, family.shifted.hidden));
                 let Some(found) = simple(view, family.shifted, x) else { return false };
                 complex[pairs] = self.pairs_in_loop_order(family.cut, &found);
                 pairs += 1;

@@ -188,11 +188,7 @@ impl<S: Simd> Exponential<S> for [ComplexLanes<S>; 2] {
 /// `p x z`
 #[inline(always)]
 fn moment<S: Simd, N: LaneNumber<S>>(p: &[N; 3], z: &[N; 3]) -> [N; 3] {
-    [
-        z[1].mul_from(p[2], p[1] * z[2]),
-        z[2].mul_from(p[0], p[2] * z[0]),
-        z[0].mul_from(p[1], p[0] * z[1]),
-    ]
+    [z[1].mul_from(p[2], p[1] * z[2]), z[2].mul_from(p[0], p[2] * z[0]), z[0].mul_from(p[1], p[0] * z[1])]
 }
 
 impl<N> Frame<N> {
@@ -241,7 +237,8 @@ pub fn lane_closure<S: Simd, N: Angular<S>>(
     let zero = one.like(0.0);
     let mut jacobian = [[N::of(zero); 6]; 6];
     // The first frame is the identity.
-    let first = Lengths { norm: one.like(ROOT_3), inverse: one.like(ROOT_3), twist: one.like(ROOT_2), lever: one.like(ROOT_3) };
+    let first =
+        Lengths { norm: one.like(ROOT_3), inverse: one.like(ROOT_3), twist: one.like(ROOT_2), lever: one.like(ROOT_3) };
     let mut lengths = [first; 7];
     // The first rotation turns the first constant from the left, about the z axis of the frame.
     jacobian[0][2] = N::of(one);
