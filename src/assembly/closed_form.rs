@@ -56,17 +56,16 @@ impl Search<'_> {
             let exact = || refined_exactly(exact.as_ref().filter(|_| S::REAL)?, &real);
             let refined = refined.or_else(exact).and_then(|refined| self.refined_mode(refined));
             let mode = refined.or_else(|| self.proved_mode(&start));
-            mode.filter(|mode| mode.real == S::REAL).is_some_and(|mode| self.list(mode))
+            mode.filter(|mode| mode.real == S::REAL).map(|mode| self.list(mode)).is_some()
         })
     }
 
-    /// Lists a proved solution, and its conjugate. Returns true.
-    fn list(&mut self, mode: Mode) -> bool {
+    /// Lists a proved solution, and its conjugate.
+    fn list(&mut self, mode: Mode) {
         if !mode.real {
             self.assembly.modes.push(mode.conjugate());
         }
         self.assembly.modes.push(mode);
-        true
     }
 }
 
