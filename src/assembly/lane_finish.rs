@@ -103,7 +103,7 @@ impl<'a> Finish<'a> {
         let residual = here.turn.max(shift);
         let residual = if N::REAL { residual } else { residual / bounds.growth };
         residual.store(&mut found.residual, 0);
-        self.certify(&here, &inverse, &bounds, off_circle(&pairs, one), &mut found);
+        Self::certify(&here, &inverse, &bounds, off_circle(&pairs, one), &mut found);
         found
     }
 
@@ -132,7 +132,6 @@ impl<'a> Finish<'a> {
     /// names are used here.
     #[inline(always)]
     fn certify<S: Simd, N: Angular<S>>(
-        &self,
         at: &LaneClosure<S, N>,
         inverse: &[[N; 6]; 6],
         bounds: &Bounds<S>,

@@ -37,14 +37,19 @@ pub trait LaneNumber<S: Simd>:
     /// Returns numbers with these real and imaginary parts; real numbers have no imaginary part.
     fn from_parts(re: Lanes<S>, im: Lanes<S>) -> Self;
     /// Returns `self * x` for real x.
+    #[must_use]
     fn times(self, x: Lanes<S>) -> Self;
     /// Returns `self * x + b` for real x.
+    #[must_use]
     fn times_plus(self, x: Lanes<S>, b: Self) -> Self;
     /// Returns `self * a + b`.
+    #[must_use]
     fn mul_add(self, a: Self, b: Self) -> Self;
     /// Returns `b - self * a`.
+    #[must_use]
     fn mul_from(self, a: Self, b: Self) -> Self;
     /// Returns the conjugates.
+    #[must_use]
     fn conj(self) -> Self;
     /// Returns upper bounds of the absolute values, those of real and imaginary part added up.
     fn bound(self) -> Lanes<S>;
@@ -53,8 +58,10 @@ pub trait LaneNumber<S: Simd>:
     /// Returns these squares and a sum.
     fn square_plus(self, sum: Lanes<S>) -> Lanes<S>;
     /// Returns `1 / self`.
+    #[must_use]
     fn inverse(self) -> Self;
     /// Returns the square roots with real parts that are not negative; NaN at 0 for complex numbers.
+    #[must_use]
     fn root(self) -> Self;
     /// Returns `yes` where the condition holds, and `no` in the other lanes.
     fn selected(mask: Mask<S>, yes: Self, no: Self) -> Self;
