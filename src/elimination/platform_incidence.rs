@@ -62,7 +62,10 @@ mod tests {
         assert_eq!(most_poses(&platform).map(|most| most.0), Some(16));
         let mut other = GENERAL;
         other[3] = [2, 7, -4];
-        assert_eq!(most_poses(&Platform { base: points(GENERAL), plate: points(other) }), None);
+        let five_equal = Platform { base: points(GENERAL), plate: points(other) };
+        assert_eq!(most_poses(&five_equal).map(|most| most.0), Some(36));
+        let plate = points([[1, 0, 0], [2, 3, 1], [0, 4, 2], [-3, 1, 5], [1, -2, 7], [4, 4, -1]]);
+        assert_eq!(most_poses(&Platform { base: points(GENERAL), plate }), None);
     }
 
     #[test]

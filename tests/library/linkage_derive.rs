@@ -465,10 +465,10 @@ fn the_quartic_of_a_slider_crank_has_symbols() {
     let bodies = r"frame = { A = 0, S = [0, 1] }
 crank = { A = 0, B = 2 }
 rod = { B = 0, C = 5, P = [2, 3] }
-piston = { C = 0, S = 0 }";
+piston = { C = 0, S = [1, 0] }";
     let file = read(joints, bodies, "");
     let found = with_symbols(&file, "rod.P", &[]).unwrap();
     assert!(found.agrees && found.compared.is_none());
-    assert_eq!((found.symbols.len(), found.degree()), (5, 4));
+    assert_eq!((found.symbols.len(), found.degree()), (6, 4));
     assert_eq!(at_file(&found), curve(&file, "rod.P").unwrap().polynomial);
 }

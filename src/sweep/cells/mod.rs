@@ -319,9 +319,15 @@ impl Source {
             let inside = match ends {
                 [Some(a), Some(b)] if a < b => {
                     let quarter = Rational::from(&b - &a) / 4;
-                    simplest_between(a + &quarter, b - &quarter)
+                    let inside = simplest_between(a + &quarter, Rational::from(&b - &quarter));
+                    // One of all numbers stands for half a turn, which has no half tangent: another one above it.
+                    if back(&inside).is_some() {
+                        inside
+                    } else {
+                        let high = b - quarter / 2;
+                        simplest_between(Rational::from(&inside + &high) / 2, high)
+                    }
                 }
-                // One of all numbers stands for half a turn, which has no half tangent.
                 [Some(a), None] => a.ceil() + (1 + step),
                 [None, Some(b)] => b.floor() - (1 + step),
                 [None, None] => Rational::from((1, 3)),
