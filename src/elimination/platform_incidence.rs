@@ -30,7 +30,8 @@ pub fn most_poses(platform: &Platform<Rational>) -> Option<(usize, &'static str)
         0 => None,
         null => Some((DIMENSION.saturating_sub(null), NULL)),
     };
-    pairs.into_iter().chain(affine).chain(null).min_by_key(|(poses, _)| *poses)
+    // The theorems speak of platforms that have a pose at some lengths of the legs.
+    pairs.into_iter().chain(affine).chain(null).min_by_key(|(poses, _)| *poses).filter(|(poses, _)| *poses > 0)
 }
 
 /// Whether the legs meet in pairs in the corners of a triangle.

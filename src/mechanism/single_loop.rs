@@ -233,7 +233,8 @@ impl SingleLoop {
         let locked_value = Complex::from(locked_value(case));
         let values = |mode: &Mode| prepared.layout.assemble(&mode.unknowns, locked_value);
         let full = |mode: &Mode| full_mode(mode, values(mode), &prepared.layout.variables, &self.limits);
-        let mut modes = exact_modes.unwrap_or_else(|| assembly.modes.iter().map(full).collect::<Vec<_>>());
+        let is_listed = |mode: &&Mode| mode.real || roots == Roots::All;
+        let mut modes = exact_modes.unwrap_or_else(|| assembly.modes.iter().filter(is_listed).map(full).collect::<Vec<_>>());
         let vicinity = Vicinity { of: self, prepared, locked: locked_value.re, gap: &gap };
         let is_moving = verdict.status == Status::SelfMotion;
         let mut families = if is_moving { vicinity.families(&assembly.families) } else { Vec::new() };
@@ -516,9 +517,11 @@ impl Question<'_> {
         if !self.only_lists && solver.solve_in_closed_form(self.gap, &most, &exact, workspace, assembly) {
             let verdict = self.judge(Roots::All, assembly);
             if is_settled(&verdict) {
-                // The list is that of what is asked for.
-                assembly.modes.retain(|mode| mode.real || self.roots == Roots::All);
-                return Verdict { complex_complete: verdict.complex_complete && self.roots == Roots::All, ..verdict };
+                // The list is that of what is asked for; complex ones lead to near ones.
+                let is_listed = |mode: &&Mode| mode.real || self.roots == Roots::All;
+                let certified = assembly.modes.iter().filter(is_listed).filter(|mode| mode.certificate.is_some()).count();
+                let complex_complete = verdict.complex_complete && self.roots == Roots::All;
+                return Verdict { complex_complete, certified, ..verdict };
             }
         }
         let is_first = self.real_first && !solver.is_decoupled();

@@ -474,10 +474,10 @@ impl Subject<'_> {
     /// A configuration as it is in floating point.
     pub(super) fn measured(&self, mode: &FullMode) -> Configuration {
         let n = self.variables.len();
-        // Certified solutions of six equations in six unknowns are regular: rank 6.
+        // Certified simple solutions of six equations in six unknowns are regular: rank 6.
         let local = match (mode.certified, n) {
             (true, 6) if mode.multiplicity < 2 => Local::Isolated { order: 1 },
-            (true, 7..) => Local::Manifold { dimension: n - 6 },
+            (true, 7..) if mode.multiplicity < 2 => Local::Manifold { dimension: n - 6 },
             _ if mode.multiplicity > 0 => Local::Isolated { order: mode.multiplicity },
             _ => Local::Deficient,
         };

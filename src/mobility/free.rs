@@ -210,7 +210,7 @@ impl Subject<'_> {
                 };
                 // A joint that a single input cannot hold is held in another way.
                 let solution = solve(self.entry, Case::given(Input { joint, value }, 0), false).ok()?;
-                let certified: Vec<&FullMode> = solution.modes.iter().filter(|m| m.real && m.certified).collect();
+                let certified: Vec<&FullMode> = solution.modes.iter().filter(|m| m.real && m.certified && m.multiplicity < 2).collect();
                 if !certified.is_empty() {
                     let configurations: Vec<Configuration> = certified.into_iter().map(|m| self.measured(m)).collect();
                     return Some(Search { held: vec![(k, held)], configurations, complex: solution.verdict.complex });

@@ -56,10 +56,13 @@ impl TaskArm {
     ) -> Solution {
         let total = found.len();
         let (mut listed, mut others) = (Vec::<FullMode>::new(), Vec::new());
+        let mut is_double = false;
         for Found { mode, miss } in found {
             if mode.real && tolerance.allows(&miss) {
                 // Three virtual rotations about one point have two triples of angles for every rotation.
-                if !listed.iter().any(|other| self.is_twice(other, &mode)) {
+                if listed.iter().any(|other| self.is_twice(other, &mode)) {
+                    is_double = true;
+                } else {
                     listed.push(FullMode { error: Some(miss), ..mode });
                 }
             } else {
@@ -108,7 +111,12 @@ impl TaskArm {
         verdict.complex = exact;
         verdict.complex_complete = false;
         verdict.certified = listed.iter().filter(|mode| mode.certified).count();
-        let of = format!("{exact} of {total} solutions of {} conditions are solutions of the pose", 6 - filled.len());
+        let conditions = 6 - filled.len();
+        let of = if is_double {
+            format!("{exact} solutions of {conditions} conditions, each by two triples of virtual angles, are solutions of the pose")
+        } else {
+            format!("{exact} of {total} solutions of {conditions} conditions are solutions of the pose")
+        };
         let also = if near > 0 { format!(", {near} more come within the tolerance") } else { String::new() };
         verdict.reason = format!("{of}{also}; of the conditions: {}", verdict.reason);
         let nearest = if listed.is_empty() { closest } else { None };

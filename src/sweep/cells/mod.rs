@@ -391,7 +391,8 @@ impl Source {
         if self.is_probable {
             let reason = "the closure polynomial is interpolated; at every sample point it has as many real roots as there are real \
                           modes";
-            return verdict(self.proof, Code::ProbablePolynomial, reason);
+            let proof = if is_rounded { Proof::RoundedData } else { self.proof };
+            return verdict(proof, Code::ProbablePolynomial, reason);
         }
         let reason = "between neighbouring zeros of the exact discriminant the real roots of the closure polynomial, one for each \
                       real mode, never meet";

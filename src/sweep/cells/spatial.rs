@@ -8,7 +8,7 @@ use crate::catalogue::{SpaceFile, sphere::turned};
 use crate::derivation::transfer;
 use crate::error::{Error, Result};
 use crate::kinematics::closed_loop::Variable;
-use crate::kinematics::motion::dot;
+use crate::kinematics::motion::{cross, dot};
 use crate::kinematics::sphere::{SphereGiven, SphereJoint, SphereLinkage};
 use crate::linkage::space::{self, bodies};
 use crate::linkage::sphere::{self, about, start};
@@ -59,9 +59,22 @@ impl SphereCase {
         }
         let found = transfer(&self.linkage, joint).ok()?;
         // Of a lower degree the other joint is half a turn open at all values.
-        let is_whole = found.polynomial.degree(1) == 2 && found.bodies.len() == 1;
+        let is_whole = found.polynomial.degree(1) == 2 && found.bodies.len() == 1 && self.holds_coupler();
         let unknown = format!("t_{}", self.linkage.joints[found.output].name);
         Source::of_transfer(&found.polynomial, unknown).filter(|_| is_whole)
+    }
+}
+
+impl SphereCase {
+    /// Whether the axes of every body without a joint to the ground are not parallel: two of them hold it.
+    fn holds_coupler(&self) -> bool {
+        let SphereLinkage { joints, ground, bodies, .. } = &self.linkage;
+        let is_joined = |body: usize| joints.iter().any(|joint| joint.of.contains(&body) && joint.of.contains(ground));
+        (0..bodies.len()).filter(|body| body != ground && !is_joined(*body)).all(|body| {
+            let axes = joints.iter().flat_map(|joint| (0..2).filter(|side| joint.of[*side] == body).map(|side| &joint.at[side]));
+            let axes: Vec<_> = axes.collect();
+            axes.windows(2).any(|pair| cross(pair[0], pair[1]).iter().any(|x| *x != 0))
+        })
     }
 }
 
