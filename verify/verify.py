@@ -91,7 +91,7 @@ def of_solutions(system, claim, modes, item, others):
     if len(found) != bound or not has_complex and not all(is_real for *_, is_real in found):
         raise Refused(f"proof: {kind}: at most {bound} solutions, and {len(found)} modes are proved, some of them perhaps not real")
     if size < 6:
-        # Those of the longer loop at which its added rotations stand at 0.
+        # Solutions of the longer loop count where its added rotations are 0.
         exact = exact_solutions(system, others[0]) if others else None
         is_own = lambda mode: is_one_in(exact, system.kinds, mode) if is_of_own and exact else not any(
             longer.differ(k, mode[0][k], mode[1]) for k in range(size, 6))

@@ -18,9 +18,9 @@ struct Frame<N> {
 pub struct Lengths<S: Simd> {
     /// The row-sum norm of the frame, and of its inverse.
     pub norm: Lanes<S>,
-    /// That of its inverse.
+    /// The row-sum norm of the inverse of the frame.
     pub inverse: Lanes<S>,
-    /// That of the twist of the unknown behind it.
+    /// The row-sum norm of the twist of the unknown behind it.
     pub twist: Lanes<S>,
     /// The derivative of that twist with respect to the frame.
     pub lever: Lanes<S>,

@@ -120,7 +120,7 @@ pub(super) struct BodyRelations {
     given: Vec<Given>,
     derivation: LinkageDerivation,
     first: LinkageRelation,
-    /// Those of other bodies of the same group, derived when first asked for, by the numbers of their polynomials.
+    /// Relations of other bodies of the same group with the numbers of their polynomials; each is derived when it is first asked for.
     others: Vec<(usize, OnceLock<Option<LinkageRelation>>)>,
 }
 

@@ -117,7 +117,7 @@ def test_forged_solutions_of_short_loops_are_refused(certificates, tmp_path, che
         "an eliminant that hides an added angle": {**dietmaier, "proof": [{**of_own, "aid": {**of_own["aid"], "first": 5}}, four]},
         "an arm of six joints": {**general, "proof": [{**of_own, "value": 16}, four]},
         "points of an arm of six joints": {**general, "proof": [*general["proof"], points]},
-        "a polynomial of a short loop": {**arm, "claim": {
+        "a polynomial of an arm of few joints": {**arm, "claim": {
             **arm["claim"], "verb": "derive", "unknown": 1, "degree": 1, "polynomial": ["0", "1"]}},
     }
     for name, certificate in forged.items():
