@@ -16,7 +16,7 @@ struct Frame<N> {
 /// Norms of a frame for error bounds, see [`StepNorms`](super::newton::StepNorms).
 #[derive(Clone, Copy)]
 pub struct Lengths<S: Simd> {
-    /// The row-sum norm of the frame, and of its inverse.
+    /// The row-sum norm of the frame.
     pub norm: Lanes<S>,
     /// The row-sum norm of the inverse of the frame.
     pub inverse: Lanes<S>,

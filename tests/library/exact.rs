@@ -129,7 +129,7 @@ fn special_arm(seed: u64) -> (String, Vec<f64>) {
 
 /// Lengths and offsets of special arms.
 const LENGTHS: [&[&str]; 2] = [&["0", "0", "1", "-1", "2", "1/2"], &["0", "0", "1", "-2", "3/2"]];
-/// The same of all sizes.
+/// Arms with lengths of all sizes are decided alike.
 const OF_ALL_SIZES: [&[&str]; 2] =
     [&["0", "1", "100000000", "1/100000000", "-3/2"], &["0", "0", "1/100000000", "-200000000", "1", "7/100"]];
 
