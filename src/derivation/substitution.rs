@@ -1,6 +1,6 @@
 //! Substitutes the solver's solutions in the equations that a derivation displays.
 
-use super::{ClosurePolynomial, Derivation, Displayed, Symbolic};
+use super::{ClosurePolynomial, Derivation, Equation, Symbolic};
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::Ring;
 use crate::algebra::text::Names;
@@ -44,6 +44,32 @@ pub struct Substitution {
 struct Shown<'d> {
     name: &'d str,
     polynomial: &'d Polynomial<Rational>,
+    /// The half-angle tangents in which it was written, those included whose coefficients are 0: at infinity it says nothing.
+    tangents: Vec<String>,
+}
+
+impl<'d> Shown<'d> {
+    fn new(name: &'d str, polynomial: &'d Polynomial<Rational>) -> Self {
+        Self { name, polynomial, tangents: Vec::new() }
+    }
+
+    /// Returns the polynomial of one unknown; it may be constant, where all roots are infinite.
+    fn in_unknown(names: &Names, variable: usize, polynomial: &'d Polynomial<Rational>) -> Self {
+        let tangents = names.list().get(variable).filter(|name| name.starts_with('t')).cloned().into_iter().collect();
+        Self { name: "closure polynomial", polynomial, tangents }
+    }
+
+    /// Returns the forms of an equation in cosines and sines, and in half-angle tangents.
+    fn forms(equation: &'d Equation, names: &Names) -> impl Iterator<Item = Self> {
+        let cosines = names.list().iter().enumerate().filter(|(k, _)| equation.polynomial.degree(*k) > 0);
+        let tangents = cosines.filter_map(|(_, name)| name.strip_prefix(['c', 's'])).map(|label| format!("t{label}"));
+        let algebraic = equation.algebraic.as_ref().map(|polynomial| Self {
+            name: &equation.name,
+            polynomial,
+            tangents: tangents.collect(),
+        });
+        std::iter::once(Self::new(&equation.name, &equation.polynomial)).chain(algebraic)
+    }
 }
 
 impl Derivation {
@@ -53,13 +79,11 @@ impl Derivation {
     /// [`Error::Invalid`] if one does not vanish: either the derivation or the solver is wrong.
     pub fn substituted(&self, entry: &Entry, case: &Case) -> Result<Substitution> {
         let polynomial = self.polynomial.as_ref().map(ClosurePolynomial::to_polynomial);
-        let mut shown = Vec::new();
-        for equation in &self.equations {
-            let forms = std::iter::once(&equation.polynomial).chain(&equation.algebraic);
-            shown.extend(forms.map(|polynomial| Shown { name: &equation.name, polynomial }));
-        }
-        shown.extend(polynomial.iter().map(|polynomial| Shown { name: "closure polynomial", polynomial }));
         let names = &self.names;
+        let mut shown: Vec<Shown<'_>> =
+            self.equations.iter().flat_map(|equation| Shown::forms(equation, names)).collect();
+        let closure = self.polynomial.iter().zip(&polynomial);
+        shown.extend(closure.map(|(closure, polynomial)| Shown::in_unknown(names, closure.variable, polynomial)));
         checked(entry, case, names, &shown, |values| {
             // The definition of the variable of a platform's polynomial is linear in it.
             let (Some(definition), Some(polynomial)) = (&self.definition, &self.polynomial) else { return };
@@ -81,8 +105,6 @@ impl Symbolic {
     /// # Errors
     /// [`Error::Invalid`] if one does not vanish: either the derivation or the solver is wrong.
     pub fn substituted(&self, entry: &Entry, case: &Case) -> Result<Substitution> {
-        let displayed: Vec<&Displayed> =
-            self.equations.iter().chain(self.polynomial.iter().map(|one| &one.displayed)).collect();
         let names = &self.names;
         // `d = above/below` as an equation.
         let translations: Vec<Polynomial<Rational>> = self
@@ -90,11 +112,16 @@ impl Symbolic {
             .iter()
             .map(|one| Polynomial::variable(one.variable).mul(&one.denominator).sub(&one.numerator))
             .collect();
-        let shown: Vec<Shown<'_>> = displayed
+        let equations = self
+            .equations
             .iter()
-            .flat_map(|one| [&one.compact, &one.polynomial].map(|polynomial| Shown { name: &one.name, polynomial }))
-            .chain(translations.iter().map(|polynomial| Shown { name: "translation", polynomial }))
-            .collect();
+            .flat_map(|one| [&one.compact, &one.polynomial].map(|polynomial| Shown::new(&one.name, polynomial)));
+        let closure = self.polynomial.iter().flat_map(|one| {
+            [&one.displayed.compact, &one.displayed.polynomial]
+                .map(|polynomial| Shown::in_unknown(names, one.variable, polynomial))
+        });
+        let translations = translations.iter().map(|polynomial| Shown::new("translation", polynomial));
+        let shown: Vec<Shown<'_>> = equations.chain(closure).chain(translations).collect();
         checked(entry, case, names, &shown, |values| {
             for (variable, number) in &self.values {
                 values.insert(names.list()[*variable].clone(), Complex::from(number.to_f64()));
@@ -136,7 +163,7 @@ fn checked(
         complete(&mut values);
         found.solutions += 1;
         found.real += usize::from(mode.real);
-        for equation in shown {
+        for equation in shown.iter().filter(|one| one.tangents.iter().all(|tangent| values.contains_key(tangent))) {
             let Some((value, size)) = value(equation.polynomial, names, &values) else { continue };
             // At the origin all terms may be rounding errors.
             let part = value.norm() / (size + 1e-6);

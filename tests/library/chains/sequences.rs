@@ -115,6 +115,27 @@ proptest! {
     }
 }
 
+/// In half-angle tangents this equation is `1 = 0`: both roots are at infinity, and there the tangents say nothing.
+#[test]
+fn equations_without_finite_roots_hold_where_the_angle_is_pi() {
+    let text = r#"
+        [mechanism]
+        kind = "loop"
+        convention = "dh"
+        joints = [
+            { type = "R", a = 1, tan_half_alpha = 0, d = 0 },
+            { type = "S", a = 0, tan_half_alpha = 0, d = 1 },
+            { type = "S", a = 2, tan_half_alpha = 0, d = 0 },
+        ]
+    "#;
+    let entry = load_text(text, "any.toml", Format::Toml, &Options::default()).unwrap();
+    let derivation = derive(&entry, &entry.cases[0]).unwrap();
+    let found = derivation.substituted(&entry, &entry.cases[0]).unwrap();
+    // Only the form in the cosine has a value.
+    assert_eq!((found.solutions, found.values), (1, 1));
+    assert!(found.largest < 1e-12, "{:e}", found.largest);
+}
+
 /// The translations lie in a plane wherever the rotations close: the polynomial of the numbers has lost its roots.
 #[test]
 fn roots_lost_at_the_numbers_are_no_fault_of_the_symbols() {
