@@ -52,8 +52,8 @@ impl Search<'_> {
             let start = pairs.map(|(cos, sin)| S::angle_of(cos, sin).to_complex());
             let real = start.map(|z| z.re);
             let refined = if S::REAL { refined_real_of(self.closed, &real, self.gap_rounding) } else { None };
-            // Near singular positions the rounding of the pose to f64 moves a solution beyond its neighbour, where that is real.
-            let exact = || refined_exactly(exact.as_ref().filter(|_| S::REAL)?, &real);
+            // Near singular positions the rounding of the pose to f64 moves a solution beyond its neighbour.
+            let exact = || refined_exactly(exact.as_ref()?, &start);
             let refined = refined.or_else(exact).and_then(|refined| self.refined_mode(refined));
             let mode = refined.or_else(|| self.proved_mode(&start));
             mode.filter(|mode| mode.real == S::REAL).map(|mode| self.list(mode)).is_some()

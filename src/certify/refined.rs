@@ -281,36 +281,67 @@ pub fn refined_certificate(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>
 #[must_use]
 pub fn refined_certificate_of(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f64>>, off: f64) -> Option<Refined> {
     let data = Data::of(closed, &[0.0, 0.0, 0.0, 0.0, 0.0, off]);
-    let variables = closed.variables;
-    let precise = ClosedLoop { variables, constants: closed.constants.each_ref().map(rigid) };
-    if unknowns.iter().all(|z| z.im == 0.0)
-        && let Some(refined) = refined_real(&precise, &unknowns.map(|z| z.re), Some(data))
-    {
-        return Some(refined);
+    let precise = ClosedLoop { variables: closed.variables, constants: closed.constants.each_ref().map(rigid) };
+    let real = || refined_real(&precise, &unknowns.map(|z| z.re), Some(data));
+    let is_real = unknowns.iter().all(|z| z.im == 0.0);
+    (if is_real { real() } else { None }).or_else(|| refined_complex(&precise, unknowns, Some(data)))
+}
+
+/// Whether Newton's method goes on, has arrived, or goes astray. It has to converge from its start, not to wander.
+#[derive(Debug)]
+struct Convergence {
+    before: f64,
+    may_stall: bool,
+}
+
+impl Convergence {
+    /// Steps below this are rounding errors of double-double arithmetic, also where a Jacobian is nearly singular.
+    const ROUNDING: f64 = 1e-12;
+
+    fn new() -> Self {
+        Self { before: f64::INFINITY, may_stall: true }
     }
-    let state: Six<Quad> = std::array::from_fn(|j| match variables[j] {
+
+    /// Returns whether a step of this size was the last one; `None` where the method does not converge.
+    fn has_arrived(&mut self, size: f64) -> Option<bool> {
+        let stalls = !(size < 0.5 * self.before);
+        // Near a singular position the first step corrects the rounding of the start alone, and the second one is as long.
+        let wanders = stalls && size > Self::ROUNDING;
+        if !(size < 0.3) || (wanders && !self.may_stall) {
+            return None;
+        }
+        self.may_stall &= !wanders;
+        self.before = size;
+        Some(size < 1e-26 || (stalls && !wanders))
+    }
+}
+
+/// Proves unknowns known in f64 in complex arithmetic. Without `data` the constants are exact.
+fn refined_complex(
+    precise: &ClosedLoop<DoubleDouble>,
+    unknowns: &Six<Complex<f64>>,
+    data: Option<Data>,
+) -> Option<Refined> {
+    let state: Six<Quad> = std::array::from_fn(|j| match precise.variables[j] {
         Variable::Rotation => exponential(unknowns[j]),
         Variable::Translation => extended(unknowns[j]),
     });
-    let mut at = Approach { closed: &precise, state, reach: reach(&variables, unknowns) };
-    let mut before = f64::INFINITY;
+    let mut at = Approach { closed: precise, state, reach: reach(&precise.variables, unknowns) };
+    let mut convergence = Convergence::new();
     for round in 0..12 {
         let pairs = at.pairs()?;
         let (mut here, inverse, step) = at.newton(&pairs, rough_inverse)?;
         let size = step.iter().map(|x| x.bound()).fold(0.0, f64::max) / at.reach;
-        // Newton's method has to converge from its start, not to wander.
-        let stalls = !(size < 0.5 * before);
-        if !(size < 0.3) || (stalls && size > 1e-12) {
-            return None;
-        }
-        if size < 1e-26 || stalls || round == 11 {
-            let view = View::of(&precise, &pairs, &inverse, narrowed);
-            let proof = of_stored(&mut here, &inverse, data, &view)
-                .or_else(|| in_any_frame(&precise, &pairs, at.reach, Some(data)))?;
+        if convergence.has_arrived(size)? || round == 11 {
+            let view = || View::of(precise, &pairs, &inverse, narrowed);
+            let proof = match data {
+                Some(data) => of_stored(&mut here, &inverse, data, &view()),
+                None => certificate(&here, &inverse),
+            };
+            let proof = proof.or_else(|| in_any_frame(precise, &pairs, at.reach, data))?;
             let condition = norm(&here.jacobian) * norm(&inverse);
             return (proof.radius < MOST_DRIFT * at.reach).then(|| at.told(proof, condition));
         }
-        before = size;
         at.step_back(&step);
     }
     None
@@ -332,10 +363,11 @@ pub fn refined_real_of(closed: &ClosedLoop<f64>, unknowns: &Six<f64>, off: f64) 
     refined_real(&precise, unknowns, Some(Data::of(closed, &[0.0, 0.0, 0.0, 0.0, 0.0, off])))
 }
 
-/// Proves real unknowns known in f64 for a loop of constants that are known to double-double rounding.
+/// Proves unknowns known in f64 for a loop of constants that are known to double-double rounding.
 #[must_use]
-pub fn refined_exactly(closed: &ClosedLoop<DoubleDouble>, unknowns: &Six<f64>) -> Option<Refined> {
-    refined_real(closed, unknowns, None)
+pub fn refined_exactly(closed: &ClosedLoop<DoubleDouble>, unknowns: &Six<Complex<f64>>) -> Option<Refined> {
+    let is_real = unknowns.iter().all(|z| z.im == 0.0);
+    if is_real { refined_real(closed, &unknowns.map(|z| z.re), None) } else { refined_complex(closed, unknowns, None) }
 }
 
 /// As [`refined_certificate`] for a real solution, in real arithmetic, at a third of the cost; `None` also if only
@@ -347,18 +379,14 @@ fn refined_real(precise: &ClosedLoop<DoubleDouble>, unknowns: &Six<f64>, data: O
         Variable::Rotation => on_circle(unknowns[j].cos().into(), unknowns[j].sin().into()),
         Variable::Translation => (unknowns[j].into(), DoubleDouble::zero()),
     });
-    let mut before = f64::INFINITY;
+    let mut convergence = Convergence::new();
     loop {
         let mut here = closure_at::<DoubleDouble>(precise, &pairs);
         let rough = inverse(&here.jacobian.map(|row| row.map(DoubleDouble::to_f64)))?;
         let rough = rough.map(|row| row.map(DoubleDouble::from));
         let step = times(&rough, &here.residual);
         let size = step.iter().map(|x| x.bound()).fold(0.0, f64::max) / reach;
-        let stalls = !(size < 0.5 * before);
-        if !(size < 0.3) || (stalls && size > 1e-12) {
-            return None;
-        }
-        if size < 1e-26 || stalls {
+        if convergence.has_arrived(size)? {
             let view = || View::of(precise, &pairs, &rough, |x| x.to_f64().into());
             let proof = match data {
                 Some(data) => of_stored(&mut here, &rough, data, &view()),
@@ -379,7 +407,6 @@ fn refined_real(precise: &ClosedLoop<DoubleDouble>, unknowns: &Six<f64>, data: O
                 condition: norm(&here.jacobian) * norm(&rough),
             });
         }
-        before = size;
         for j in 0..6 {
             let d = step[j].neg();
             let (first, second) = pairs[j];

@@ -151,9 +151,32 @@ struct Phases<S> {
 }
 
 /// The angles at which `row . (1, cos, sin) = 0`.
-fn phases<S: Scalar>([constant, cos, sin]: &[S; 3]) -> Phases<S> {
+fn phases<S: Scalar>(row: &[S; 3]) -> Phases<S> {
+    let [constant, cos, sin] = row;
+    phases_of(row, &cos.mul(cos).add(&sin.mul(sin)).sub(&constant.mul(constant)))
+}
+
+/// The angles q at which `from . V(q) to` is the third coordinate of `seen`, all of them unit vectors.
+///
+/// The angles fall together where the three vectors lie in a plane. The discriminant is written so that it is not a difference of
+/// numbers near 1 there, if `from` and `to` make the same angle with the axis: then angles that are 1e-14 apart are as exact as `seen`.
+fn alignments<S: Scalar>(from: &[S; 3], to: &[S; 3], seen: &[S; 3]) -> Phases<S> {
+    let mut row = between(from, to);
+    row[0] = row[0].sub(&seen[2]);
+    // 1 - z^2
+    let planar = seen[0].mul(&seen[0]).add(&seen[1].mul(&seen[1]));
+    // With heights h and k over the axis: (1 - h^2) (1 - k^2) - (z - h k)^2 = 1 - z^2 - (h - k)^2 - 2 h k (1 - z), and the same with -k, -z.
+    let (one, is_up) = (S::from_f64(1.0), seen[2].to_complex().re >= 0.0);
+    let (height, rest) = if is_up { (to[2], one.add(&seen[2])) } else { (to[2].neg(), one.sub(&seen[2])) };
+    let Some(inverse) = rest.inverse() else { return phases(&row) };
+    let off = from[2].sub(&height);
+    let twice = from[2].mul(&height).times(2.0).mul(&inverse);
+    phases_of(&row, &planar.mul(&one.sub(&twice)).sub(&off.mul(&off)))
+}
+
+/// The angles at which `row . (1, cos, sin) = 0`, with the square of the row over (cos, sin) less that of the constant.
+fn phases_of<S: Scalar>([constant, cos, sin]: &[S; 3], under: &S) -> Phases<S> {
     let square = cos.mul(cos).add(&sin.mul(sin));
-    let under = square.sub(&constant.mul(constant));
     let nothing = Phases { own: [(S::zero(), S::zero()); 2], count: 0, lifted: None };
     let Some(inverse) = square.inverse() else { return nothing };
     if S::REAL && under.to_complex().re < 0.0 {

@@ -6,8 +6,8 @@
 //! quartic and the other is linear in it.
 
 use super::{
-    C64, Candidates, DEPENDENT, Pair, Rotated, angle_between, axes, between, complex, phases, rotated, rotated_back,
-    turned, vector,
+    C64, Candidates, DEPENDENT, Pair, Rotated, alignments, angle_between, axes, between, complex, phases, rotated,
+    rotated_back, turned, vector,
 };
 use crate::kinematics::motion::Motion;
 use crate::solve::scalar::Scalar;
@@ -15,6 +15,8 @@ use crate::solve::separated::{Angle, angles_of};
 
 /// A row over (cos, sin).
 type Planar = [f64; 2];
+/// The equation of directions, of the two.
+const DIRECTIONS: usize = 1;
 
 /// A loop with three parallel axes at one pose.
 pub(super) struct Parallel<'a> {
@@ -90,8 +92,15 @@ impl<'a> Parallel<'a> {
     fn other<S: Scalar>(&self, side: usize, equation: usize, known: Pair<S>, found: &mut Candidates) {
         let (rows, constant) = &self.equations[equation];
         let ([x, y], own) = (rows[1 - side], rows[side]);
-        let rest = S::from_f64(*constant).add(&known.0.times(x)).add(&known.1.times(y));
-        let angles = phases(&[rest, S::from_f64(own[0]), S::from_f64(own[1])]);
+        let [a, b] = [0, 1].map(|k| &self.own.constant(k).rotation);
+        let angles = match (equation, side) {
+            (DIRECTIONS, 0) => alignments(&vector(self.target), &vector(axes(a)[1]), &self.behind(&known)),
+            (DIRECTIONS, _) => alignments(&vector(b[2]), &vector(self.direction), &self.ahead(&known)),
+            _ => {
+                let rest = S::from_f64(*constant).add(&known.0.times(x)).add(&known.1.times(y));
+                phases(&[rest, S::from_f64(own[0]), S::from_f64(own[1])])
+            }
+        };
         for pair in &angles.own[..angles.count] {
             self.second(if side == 1 { [known, *pair] } else { [*pair, known] }, found);
         }
@@ -127,13 +136,21 @@ impl<'a> Parallel<'a> {
         self.second([known, (cos, sin)], found);
     }
 
+    /// The direction as B sees it, turned by C.
+    fn behind<S: Scalar>(&self, third: &Pair<S>) -> [S; 3] {
+        rotated(self.own.constant(1), &turned(third, &vector(self.direction)))
+    }
+
+    /// The place that the direction has to reach as B sees it, turned back by A.
+    fn ahead<S: Scalar>(&self, first: &Pair<S>) -> [S; 3] {
+        let there = turned(&(first.0, first.1.neg()), &vector(self.target));
+        let a = self.own.constant(0);
+        std::array::from_fn(|j| (0..3).fold(S::zero(), |sum, i| sum.add(&there[i].times(a.rotation[i][j]))))
+    }
+
     /// B, where A and C are known, then the plane.
     fn second<S: Scalar>(&self, [first, third]: [Pair<S>; 2], found: &mut Candidates) {
-        let [a, b] = [0, 1].map(|k| self.own.constant(k));
-        let from = rotated(b, &turned(&third, &vector(self.direction)));
-        let there = turned(&(first.0, first.1.neg()), &vector(self.target));
-        let to: [S; 3] =
-            std::array::from_fn(|j| (0..3).fold(S::zero(), |sum, i| sum.add(&there[i].times(a.rotation[i][j]))));
+        let (from, to) = (self.behind(&third), self.ahead(&first));
         let Some(second) = angle_between((&from[0], &from[1]), (&to[0], &to[1])) else { return };
         self.plane(&[first, second, third], found);
     }

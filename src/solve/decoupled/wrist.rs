@@ -6,8 +6,8 @@
 //! \[Pieper1968\]
 
 use super::{
-    C64, Candidates, DEPENDENT, Pair, Rotated, angle_between, axes, between, complex, phases, rotated, rotated_back,
-    turned, vector,
+    C64, Candidates, DEPENDENT, Pair, Rotated, alignments, angle_between, axes, between, complex, phases, rotated,
+    rotated_back, turned, vector,
 };
 use crate::kinematics::motion::Motion;
 use crate::solve::scalar::Scalar;
@@ -163,9 +163,8 @@ impl<'a> Wrist<'a> {
         });
         let [d, e] = [3, 4].map(|k| self.own.constant(k));
         let ([row, _], [_, column]) = (axes(&d.rotation), axes(&e.rotation));
-        let mut equation = between(&vector(row), &vector::<S>(column));
-        equation[0] = equation[0].sub(&turn[2][2]);
-        let middle = phases(&equation);
+        let [_, seen] = axes(&turn);
+        let middle = alignments(&vector(row), &vector(column), &seen);
         for pair in &middle.own[..middle.count] {
             self.outer(arm, &turn, pair, found);
         }
@@ -175,17 +174,19 @@ impl<'a> Wrist<'a> {
         }
     }
 
-    /// D and F, where E is known.
+    /// D, where E is known, then F from both: near a singular position their sum is exact where neither of them is.
     fn outer<S: Scalar>(&self, arm: &[Pair<S>; 3], turn: &[[S; 3]; 3], middle: &Pair<S>, found: &mut Candidates) {
         let [d, e] = [3, 4].map(|k| self.own.constant(k));
-        let ([row, _], [_, column]) = (axes(&d.rotation), axes(&e.rotation));
+        let [_, column] = axes(&e.rotation);
         let there = rotated(d, &turned(middle, &vector(column)));
         let Some(first) = angle_between((&there[0], &there[1]), (&turn[0][2], &turn[1][2])) else { return };
-        // The third row of Q is that of d E e, turned by F.
-        let back = turned(&(middle.0, middle.1.neg()), &vector(row));
-        let [x, y] = [0, 1].map(|j| (0..3).fold(S::zero(), |sum, i| sum.add(&back[i].times(e.rotation[i][j]))));
-        let Some(last) = angle_between((&turn[2][0], &turn[2][1]), (&x, &y)) else { return };
-        self.own.push(arm, &[first, *middle, last], found);
+        // The first two columns of D d E e: F turns the first one to that of Q.
+        let [cos, sin] = [0, 1].map(|j| {
+            let link = vector(e.rotation.map(|row| row[j]));
+            let column = turned(&first, &rotated(d, &turned(middle, &link)));
+            (0..3).fold(S::zero(), |sum, i| sum.add(&column[i].mul(&turn[i][0])))
+        });
+        self.own.push(arm, &[first, *middle, (cos, sin)], found);
     }
 }
 
