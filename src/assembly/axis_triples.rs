@@ -6,7 +6,7 @@
 
 use crate::kinematics::closed_loop::{OpenLoop, Variable};
 use crate::kinematics::motion::Motion;
-use crate::solve::decoupled::{Common, Decoupled};
+use crate::solve::decoupled::{Common, Decoupled, height};
 
 /// Axes meet if their distance, over the longest link, is below this; they are parallel if the sine of their angle is.
 const NEAR: f64 = 1e-10;
@@ -52,9 +52,8 @@ pub(super) fn decoupled(open: &OpenLoop<f64>) -> Option<Decoupled> {
         let [before, behind] = [&open.constants[first], &open.constants[first + 1]];
         let back = [before, behind].map(Motion::inverse);
         let on_middle = [crossing(&back[0], near)?, crossing(behind, near)?];
-        let heights = [crossing(before, near)?, crossing(&back[1], near)?];
         let meet = (on_middle[0] - on_middle[1]).abs() <= near;
-        meet.then_some(Decoupled { first, common: Common::Point(heights) })
+        meet.then_some(Decoupled { first, common: Common::Point })
     });
     through_a_point.or_else(|| {
         let are_parallel = |first: &usize| open.constants[*first..*first + 2].iter().all(is_parallel);
@@ -75,10 +74,10 @@ fn is_parallel(link: &Motion<f64>) -> bool {
 
 /// Returns the point on the z axis at which its image under a link crosses it, if it does.
 fn crossing(link: &Motion<f64>, near: f64) -> Option<f64> {
-    let ([x, y, z], [u, v, w]) = (link.translation, [0, 1, 2].map(|i| link.rotation[i][2]));
+    let ([x, y, _], [u, v]) = (link.translation, [0, 1].map(|i| link.rotation[i][2]));
     let square = u * u + v * v;
     if !(square > NEAR * NEAR) || (x * v - y * u).abs() > near * square.sqrt() {
         return None;
     }
-    Some(z - w * (x * u + y * v) / square)
+    height(link)
 }

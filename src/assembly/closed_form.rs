@@ -6,12 +6,18 @@ use super::mode::{Mode, are_all_apart};
 use super::search::Search;
 use super::side_by_side::{Done, Pairs, SideBySide};
 use crate::algebra::double_double::DoubleDouble;
-use crate::certify::{refined_exactly, refined_real_of};
+use crate::algebra::long_float::LongNumber;
+use crate::certify::{from_pairs, refined_exactly, refined_real_of};
 use crate::kinematics::closed_loop::ClosedLoop;
+use crate::solve::decoupled::{Decoupled, FormNumber};
 use crate::solve::scalar::Scalar;
+use num_complex::Complex;
 use pulp::Arch;
 use std::cell::LazyCell;
 
+/// Numbers of 192 bits. A pose of doubles may be 1e-16 from a singular one: then a certificate compares squares of 1e16 with a
+/// rounding, and 1e-32 of double-double numbers is not small enough.
+pub type Crowded = LongNumber<3>;
 /// A loop of exact constants, rounded once.
 type Exact = ClosedLoop<DoubleDouble>;
 /// The same, made where it is first asked for.
@@ -19,28 +25,89 @@ type Lazy<'a> = LazyCell<Option<Exact>, &'a dyn Fn() -> Option<Exact>>;
 /// No constants but those that are stored.
 pub(super) const STORED: &dyn Fn() -> Option<Exact> = &|| None;
 
+/// A loop closed at a pose, rounded once from exact data to numbers of more digits, where they are asked for.
+#[derive(Clone, Copy)]
+pub struct Rounded<'a> {
+    /// To double-double numbers.
+    pub double: &'a dyn Fn() -> Option<ClosedLoop<DoubleDouble>>,
+    /// To numbers of 192 bits.
+    pub crowded: &'a dyn Fn() -> Option<ClosedLoop<Crowded>>,
+}
+
+impl Rounded<'_> {
+    /// Nothing is known but stored constants.
+    pub(super) const STORED: Rounded<'static> = Rounded { double: STORED, crowded: &|| None };
+}
+
 impl Search<'_> {
     /// Lists the candidates of the closed form, if there is one. Returns whether as many are proved as the loop can have;
-    /// otherwise it lists nothing and the pencils decide. `exact` gives the loop with constants rounded once from exact ones, scaled.
-    pub(super) fn by_closed_form(&mut self, most: &dyn Fn(usize) -> usize, exact: &dyn Fn() -> Option<Exact>) -> bool {
+    /// otherwise it lists nothing and the pencils decide. `exact` gives the loop, scaled.
+    pub(super) fn by_closed_form(&mut self, most: &dyn Fn(usize) -> usize, exact: Rounded<'_>) -> bool {
         let Some(decoupled) = self.decoupled else { return false };
+        let is_proved =
+            self.candidates(decoupled, most, exact.double) || self.crowded_candidates(decoupled, most, exact);
+        if is_proved {
+            self.assembly.all_resolved = true;
+        } else {
+            self.assembly.clear();
+        }
+        is_proved
+    }
+
+    /// Lists the candidates found in f64. Returns whether they are proved and all.
+    fn candidates(
+        &mut self,
+        decoupled: Decoupled,
+        most: &dyn Fn(usize) -> usize,
+        exact: &dyn Fn() -> Option<Exact>,
+    ) -> bool {
         let candidates = decoupled.candidates(self.closed);
         if candidates.count() < most(candidates.count()) {
             return false;
         }
         let (real, complex) = (candidates.real(), candidates.complex());
-        let finish = Finish::new(self.closed, self.gap_rounding);
-        let done = Arch::new().dispatch(SideBySide { finish, real, complex, modes: &mut self.assembly.modes });
+        let done = self.side_by_side(real, complex);
         // What is not proved side by side is looked at alone.
         let exact = LazyCell::new(exact);
-        let all = self.alone(real, &done[0], &exact) && self.alone(complex, &done[1], &exact);
-        let variables = &self.closed.variables;
-        if all && are_all_apart(variables, &self.assembly.modes) && self.is_full(self.proved(), most) {
-            self.assembly.all_resolved = true;
-            return true;
-        }
+        self.alone(real, &done[0], &exact) && self.alone(complex, &done[1], &exact) && self.has_proved_all(most)
+    }
+
+    /// Lists the candidates found in numbers of more digits: next to a singular position, those of f64 are rounding errors. Returns
+    /// whether they are proved and all.
+    fn crowded_candidates(&mut self, decoupled: Decoupled, most: &dyn Fn(usize) -> usize, exact: Rounded<'_>) -> bool {
         self.assembly.clear();
-        false
+        let Some(closed) = (exact.crowded)() else { return false };
+        let candidates = decoupled.candidates(&closed);
+        if candidates.count() < most(candidates.count()) {
+            return false;
+        }
+        let (real, complex) = (candidates.real(), candidates.complex());
+        let rounded = candidates.rounded();
+        let done = self.side_by_side(rounded.real(), rounded.complex());
+        self.alone_in(&closed, real, &done[0]) && self.alone_in(&closed, complex, &done[1]) && self.has_proved_all(most)
+    }
+
+    /// Lists the candidates that are proved side by side, and returns which.
+    fn side_by_side(&mut self, real: &[Pairs<f64>], complex: &[Pairs<Complex<f64>>]) -> [Done; 2] {
+        let finish = Finish::new(self.closed, self.gap_rounding);
+        Arch::new().dispatch(SideBySide { finish, real, complex, modes: &mut self.assembly.modes })
+    }
+
+    fn has_proved_all(&self, most: &dyn Fn(usize) -> usize) -> bool {
+        are_all_apart(&self.closed.variables, &self.assembly.modes) && self.is_full(self.proved(), most)
+    }
+
+    /// Lists the candidates that are not done, for the loop of exact constants. Returns whether all are proved.
+    fn alone_in<S: FormNumber<Real = Crowded, Complex = Complex<Crowded>>>(
+        &mut self,
+        closed: &ClosedLoop<Crowded>,
+        starts: &[Pairs<S>],
+        done: &Done,
+    ) -> bool {
+        starts.iter().zip(done).all(|(pairs, done)| {
+            let prove = || from_pairs(closed, &pairs.map(|(cos, sin)| (cos.lifted(), sin.lifted())));
+            *done || prove().and_then(|refined| self.refined_mode(refined)).is_some_and(|mode| self.list(mode, S::REAL))
+        })
     }
 
     /// Lists the candidates that are not done, by longer numbers. Returns whether all are proved.
@@ -55,17 +122,20 @@ impl Search<'_> {
             // Near singular positions the rounding of the pose to f64 moves a solution beyond its neighbour.
             let exact = || refined_exactly(exact.as_ref()?, &start);
             let refined = refined.or_else(exact).and_then(|refined| self.refined_mode(refined));
-            let mode = refined.or_else(|| self.proved_mode(&start));
-            mode.filter(|mode| mode.real == S::REAL).map(|mode| self.list(mode)).is_some()
+            refined.or_else(|| self.proved_mode(&start)).is_some_and(|mode| self.list(mode, S::REAL))
         })
     }
 
-    /// Lists a proved solution, and its conjugate.
-    fn list(&mut self, mode: Mode) {
+    /// Lists a proved solution, and its conjugate. Returns whether it is of the kind that it was taken for.
+    fn list(&mut self, mode: Mode, is_real: bool) -> bool {
+        if mode.real != is_real {
+            return false;
+        }
         if !mode.real {
             self.assembly.modes.push(mode.conjugate());
         }
         self.assembly.modes.push(mode);
+        true
     }
 }
 

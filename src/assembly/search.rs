@@ -1,6 +1,6 @@
 //! The search for the solutions of one pose: cut after cut, root after root, until nothing is missing.
 
-use super::closed_form::STORED;
+use super::closed_form::{Rounded, STORED};
 use super::lane_finish::Finish;
 use super::limits;
 use super::mode::{Assembly, Hits, Mode, Roots, are_all_apart, distance, wrapped};
@@ -84,7 +84,7 @@ impl Search<'_> {
             Effort::Pencils(most) | Effort::All(most) => most,
         };
         let is_asked = self.roots == Roots::All && matches!(self.effort, Effort::All(_));
-        if is_asked && self.by_closed_form(most, STORED) {
+        if is_asked && self.by_closed_form(most, Rounded::STORED) {
             return;
         }
         match general_degree(self.closed.variables) {
@@ -569,20 +569,21 @@ impl Search<'_> {
 
     /// Returns the mode of a solution proved in longer numbers.
     pub(super) fn refined_mode(&self, refined: Refined) -> Option<Mode> {
-        let Refined { mut unknowns, real, certificate, .. } = refined;
+        let Refined { mut unknowns, real, certificate, condition } = refined;
         for (z, variable) in unknowns.iter_mut().zip(self.closed.variables) {
             if variable == Variable::Rotation {
                 z.re = wrapped(z.re);
             }
         }
         let here = closure(self.closed, &unknowns);
-        let inverse = dense::inverse(&here.jacobian)?;
+        // Next to a singular position the matrix of f64 may be singular.
+        let inverse = dense::inverse(&here.jacobian);
         Some(Mode {
             unknowns,
             real,
             multiplicity: 1,
             residual: here.relative_defect(self.closed, &unknowns, real),
-            condition: dense::norm(&here.jacobian) * dense::norm(&inverse),
+            condition: inverse.map_or(condition, |inverse| dense::norm(&here.jacobian) * dense::norm(&inverse)),
             certificate: Some(certificate),
             hits: Hits::first(self.assembly.tries),
         })

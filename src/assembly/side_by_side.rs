@@ -92,11 +92,11 @@ impl WithSimd for SideBySide<'_> {
 #[cfg(test)]
 mod tests {
     use crate::algebra::double_double::DoubleDouble;
-    use crate::algebra::ring::Ring;
-    use crate::assembly::{Assembly, Roots, Solver, Workspace, distance};
+    use crate::assembly::{Assembly, Crowded, Roots, Rounded, Solver, Workspace, distance};
     use crate::certify::refined_certificate;
     use crate::kinematics::closed_loop::{ClosedLoop, OpenLoop, Variable};
     use crate::kinematics::motion::Motion;
+    use crate::solve::scalar::Extended;
     use rand::{Rng, SeedableRng};
     use rand_chacha::ChaCha8Rng;
     use std::f64::consts::PI;
@@ -152,7 +152,7 @@ mod tests {
     const QUARTER: (f64, f64) = (0.0, 1.0);
     const BACK: (f64, f64) = (0.0, -1.0);
 
-    /// Near singular positions of the wrist, down to 1e-10 from them, all solutions are told apart for the exact pose.
+    /// Near singular positions of the wrist, down to 1e-15 from them, all solutions are told apart for the exact pose.
     #[test]
     fn poses_near_a_singular_wrist_have_all_solutions() {
         let wrist = [
@@ -178,39 +178,42 @@ mod tests {
         }
     }
 
+    /// The loop closed at these joint values, and its closing transformation.
+    fn closed_at<R: Extended>(links: &[Motion<f64>; 6], q: &[f64; 6]) -> (ClosedLoop<R>, Motion<R>) {
+        let long = |motion: &Motion<f64>| Motion {
+            rotation: motion.rotation.map(|row| row.map(R::from)),
+            translation: motion.translation.map(R::from),
+        };
+        let mut reached = Motion::<R>::identity();
+        for (angle, link) in q.iter().zip(links) {
+            let (sin, cos) = angle.sin_cos();
+            let (cos, sin) = (R::from(cos), R::from(sin));
+            let norm = cos.mul(&cos).add(&sin.mul(&sin)).root();
+            reached = reached.then_after(&Motion::rotation_z(cos.over(norm), sin.over(norm))).then_after(&long(link));
+        }
+        let closing = reached.inverse();
+        let mut constants = links.each_ref().map(long);
+        constants[5] = constants[5].then_after(&closing);
+        (ClosedLoop { variables: UNKNOWNS, constants }, closing)
+    }
+
     fn near_singular(links: &[Motion<f64>; 6]) {
         let solver = prepared(links);
-        let long = |motion: &Motion<f64>| Motion {
-            rotation: motion.rotation.map(|row| row.map(DoubleDouble::from)),
-            translation: motion.translation.map(DoubleDouble::from),
-        };
         let mut random = ChaCha8Rng::seed_from_u64(22);
         let (mut workspace, mut all) = (Workspace::default(), Assembly::default());
-        for number in 0..40 {
-            let near = 10_f64.powf(-1.0 - 9.0 * f64::from(number) / 40.0);
+        for number in 0..60 {
+            let near = 10_f64.powf(-1.0 - 14.0 * f64::from(number) / 60.0);
             let mut q: [f64; 6] = std::array::from_fn(|_| random.random_range(-PI..PI));
             q[4] = near;
-            let mut reached = Motion::<DoubleDouble>::identity();
-            for (angle, link) in q.iter().zip(links) {
-                let (sin, cos) = angle.sin_cos();
-                let (cos, sin) = (DoubleDouble::from(cos), DoubleDouble::from(sin));
-                // On the circle: 1 over the root of 1 + x is 1 - x/2 + 3 x^2/8 to double-double rounding.
-                let off = cos.mul(&cos).add(&sin.mul(&sin)).sub(&DoubleDouble::one());
-                let bend = DoubleDouble::from(0.375).mul(&off).sub(&DoubleDouble::from(0.5));
-                let scale = DoubleDouble::one().add(&off.mul(&bend));
-                let turn = Motion::rotation_z(cos.mul(&scale), sin.mul(&scale));
-                reached = reached.then_after(&turn).then_after(&long(link));
-            }
-            let closing = reached.inverse();
+            let (double, closing) = closed_at::<DoubleDouble>(links, &q);
+            let (crowded, _) = closed_at::<Crowded>(links, &q);
             let entry = |x: &DoubleDouble| x.to_f64();
             let gap = solver.gap(&Motion {
                 rotation: closing.rotation.each_ref().map(|row| row.each_ref().map(entry)),
                 translation: closing.translation.each_ref().map(entry),
             });
-            let mut constants = links.each_ref().map(long);
-            constants[5] = constants[5].then_after(&closing);
-            let exact = || Some(ClosedLoop { variables: UNKNOWNS, constants: constants.clone() });
-            let is_found = solver.solve_in_closed_form(&gap, &|_| 8, &exact, &mut workspace, &mut all);
+            let exact = Rounded { double: &|| Some(double.clone()), crowded: &|| Some(crowded.clone()) };
+            let is_found = solver.solve_in_closed_form(&gap, &|_| 8, exact, &mut workspace, &mut all);
             assert!(is_found && all.modes.len() == 8, "{near}: {q:?}");
             let start = q.map(num_complex::Complex::from);
             // The pose is that of these joint values up to a few roundings of each.

@@ -1,6 +1,7 @@
 //! A geometry prepared once for many poses.
 
 use super::axis_triples::{AxisTriple, decoupled};
+use super::closed_form::Rounded;
 use super::high_precision::solve_in_high_precision;
 use super::lane_list::{LaneList, LaneWorkspace};
 use super::limits;
@@ -305,22 +306,23 @@ impl Solver {
     }
 
     /// As [`Solver::solve_up_to`] for all roots, by the closed form alone. Returns whether as many solutions are proved as the geometry is
-    /// known to have at most; otherwise nothing is listed. `exact` gives the loop closed at this pose, rounded once from the exact data: it
-    /// is asked where candidates are too near to each other for stored constants.
+    /// known to have at most; otherwise nothing is listed. `exact` is asked where candidates are too near to each other for stored
+    /// constants.
     pub fn solve_in_closed_form(
         &self,
         gap: &Gap,
         most: &dyn Fn(usize) -> usize,
-        exact: &dyn Fn() -> Option<ClosedLoop<DoubleDouble>>,
+        exact: Rounded<'_>,
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) -> bool {
         assembly.clear();
-        let unit = DoubleDouble::from(1.0 / self.scale);
-        let exact = || exact().map(|exact| exact.in_unit(&unit));
+        let unit = 1.0 / self.scale;
+        let double = || (exact.double)().map(|exact| exact.in_unit(&unit.into()));
+        let crowded = || (exact.crowded)().map(|exact| exact.in_unit(&unit.into()));
         let closed = self.close(gap);
         let mut search = self.searched(gap, &closed, Roots::All, Effort::OnePencil, workspace, assembly);
-        let is_proved = search.by_closed_form(most, &exact);
+        let is_proved = search.by_closed_form(most, Rounded { double: &double, crowded: &crowded });
         self.finish(assembly);
         is_proved
     }

@@ -18,7 +18,7 @@ use crate::algebra::enclosure::Enclosure;
 use crate::algebra::interval::Interval;
 use crate::algebra::long_float::{LongFloat, LongerFloat};
 use crate::algebra::ring::Ring;
-use crate::assembly::{Assembly, Gap, Mode, Roots, Solver, Workspace, ss_dyad, wrapped};
+use crate::assembly::{Assembly, Crowded, Gap, Mode, Roots, Rounded, Solver, Workspace, ss_dyad, wrapped};
 use crate::catalogue::entry::{Case, Entry, InputValue};
 use crate::elimination::coordinate_ring::Plan;
 use crate::elimination::degree::Degree;
@@ -510,11 +510,12 @@ impl Question<'_> {
         };
         let SixUnknowns { solver, .. } = self.prepared;
         // A closed form is as fast as real zeros, and has all solutions.
-        let exact = || {
-            let enclosed = self.prepared.enclosed(&self.of.chain, self.case).ok().flatten()?;
-            enclosed.rounded::<DoubleDouble>(DoubleDouble::BITS)
+        let enclosed = || self.prepared.enclosed(&self.of.chain, self.case).ok().flatten();
+        let exact = Rounded {
+            double: &|| enclosed()?.rounded(DoubleDouble::BITS),
+            crowded: &|| enclosed()?.rounded(Crowded::BITS),
         };
-        if !self.only_lists && solver.solve_in_closed_form(self.gap, &most, &exact, workspace, assembly) {
+        if !self.only_lists && solver.solve_in_closed_form(self.gap, &most, exact, workspace, assembly) {
             let verdict = self.judge(Roots::All, assembly);
             if is_settled(&verdict) {
                 // The list is that of what is asked for; complex ones lead to near ones.
