@@ -115,6 +115,15 @@ impl Solution {
         let modes = self.modes.iter().filter(|mode| mode.near).count();
         modes + self.families.iter().filter(|family| family.distance > 0.0).count()
     }
+
+    /// Returns the answer without its complex solutions.
+    fn of_real(mut self) -> Self {
+        let complex = self.modes.iter().filter(|mode| !mode.real && mode.certified).count();
+        self.modes.retain(|mode| mode.real);
+        self.verdict.certified = self.verdict.certified.saturating_sub(complex);
+        self.verdict.complex_complete = false;
+        self
+    }
 }
 
 /// The part of an answer that only a platform has.

@@ -161,6 +161,24 @@ impl SingleLoop {
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) -> Result<Solution> {
+        let mut solution = self.list(case, roots, tolerance, workspace, assembly)?;
+        // Real solutions alone do not show whether a root is multiple or one of a motion: the equations do, which have complex ones, too.
+        if roots == Roots::Real && is_left_to_equations(&solution.verdict) && !workspace.only_lists {
+            let all = self.list(case, Roots::All, tolerance, workspace, assembly)?;
+            solution = Solution { solve_us: solution.solve_us + all.solve_us, ..all.of_real() };
+        }
+        Ok(solution)
+    }
+
+    /// Lists the solutions of one case.
+    fn list(
+        &self,
+        case: &Case,
+        roots: Roots,
+        tolerance: Tolerance,
+        workspace: &mut Workspace,
+        assembly: &mut Assembly,
+    ) -> Result<Solution> {
         let Prepared { of, prepare_us, .. } = self.prepared.of(&self.chain, case)?;
         let prepared = match of {
             Way::Six(prepared) => prepared,
