@@ -25,7 +25,7 @@ use crate::elimination::degree::Degree;
 use crate::elimination::spherical_pair;
 use crate::error::{Error, Result};
 use crate::exact::{self, BALL_BITS, MOST_WITH_TRIPLE, Resolution, has_no_solution};
-use crate::kinematics::chain::{Chain, Placement};
+use crate::kinematics::chain::{Chain, JointKind, Placement};
 use crate::kinematics::closed_loop::{
     ClosedLoop, SsDyad, Layout, Numbers, OpenSsDyad, OpenLoop, Variable, angle_motion, distance_motion,
 };
@@ -163,7 +163,9 @@ impl SingleLoop {
     ) -> Result<Solution> {
         let mut solution = self.list(case, roots, tolerance, workspace, assembly)?;
         // Real solutions alone do not show whether a root is multiple or one of a motion: the equations do, which have complex ones, too.
-        if roots == Roots::Real && is_left_to_equations(&solution.verdict) && !workspace.only_lists {
+        let is_arm = || case.pose.is_some() && self.chain.joint_kinds().iter().all(|kind| *kind == JointKind::Revolute);
+        let is_open = |verdict: &Verdict| is_left_to_equations(verdict) || verdict.code == Code::OnlyReal && is_arm();
+        if roots == Roots::Real && is_open(&solution.verdict) && !workspace.only_lists {
             let all = self.list(case, Roots::All, tolerance, workspace, assembly)?;
             solution = Solution { solve_us: solution.solve_us + all.solve_us, ..all.of_real() };
         }

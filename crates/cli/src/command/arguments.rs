@@ -200,7 +200,7 @@ pub struct SolveOptions {
     /// List complex solutions too
     #[arg(long)]
     pub complex: bool,
-    /// Look for real solutions only: faster, mostly without a proof of completeness
+    /// Look for real solutions only: faster; lists of loops with translations are mostly not proved complete
     #[arg(long, conflicts_with = "complex")]
     pub real: bool,
     /// One JSON document
