@@ -35,8 +35,8 @@ use num_complex::Complex;
 /// The data of the motions of a loop, per unknown: cosine and sine of an angle, or a distance and 0.
 type Pairs<R> = [(Complex<R>, Complex<R>); 6];
 
-/// Maximum number of closure polynomials tried, from other cuts or in other angles.
-const MOST_TRIES: usize = 6;
+/// Maximum number of closure polynomials tried, from other cuts or in other angles, for what nothing else decides.
+pub const MOST_TRIES: usize = 6;
 
 /// Finds and proves the solutions of a loop with exact constants, with lengths over the scale of the solver. Returns the
 /// modes, conjugates included, of the first closure polynomial that leads to `expected` of them, or else of the one that
@@ -46,6 +46,7 @@ pub(super) fn solve_in_high_precision<R: Extended>(
     spherical: Option<usize>,
     plan: Option<&coordinate_ring::Plan>,
     expected: usize,
+    most_tries: usize,
 ) -> Vec<Mode> {
     let mut best = Vec::new();
     let mut note = |candidates: &[Pairs<R>]| {
@@ -59,7 +60,7 @@ pub(super) fn solve_in_high_precision<R: Extended>(
     let mut tries = 0;
     let mut take = |candidates: Vec<Pairs<R>>| {
         tries += 1;
-        note(&candidates) || (tries == 1 && by_ring().is_some_and(|all| note(&all))) || tries >= MOST_TRIES
+        note(&candidates) || (tries == 1 && by_ring().is_some_and(|all| note(&all))) || tries >= most_tries
     };
     match (spherical, general_degree(exact.variables)) {
         (Some(spherical), _) => _ = take(centre(exact, spherical).unwrap_or_default()),

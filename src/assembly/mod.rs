@@ -21,7 +21,7 @@ pub mod ss_dyad;
 
 pub use axis_triples::AxisTriple;
 pub use closed_form::{Crowded, Rounded};
-pub use high_precision::by_ring;
+pub use high_precision::{MOST_TRIES, by_ring};
 pub use mode::{Assembly, Hits, Mode, Roots, are_apart, distance, wrapped};
 pub use real_list::distinct_real;
 pub use solver::{Gap, Margin, Solver, Workspace};

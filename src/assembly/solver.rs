@@ -486,17 +486,19 @@ impl Solver {
     }
 
     /// Searches for the missing solutions of a list in multiprecision. `exact` is the same closed loop from exact data,
-    /// `plan` the plan of its coordinate ring, if it is known, and `expected` the number of its solutions.
+    /// `plan` the plan of its coordinate ring, if it is known, `expected` the number of its solutions, and `most_tries` that of closure
+    /// polynomials which are tried.
     pub fn solve_in_high_precision<R: Extended>(
         &self,
         exact: &ClosedLoop<R>,
         plan: Option<&Plan>,
         expected: usize,
+        most_tries: usize,
         assembly: &mut Assembly,
     ) {
         let scaled = exact.in_unit(&R::from(1.0 / self.scale));
         self.scale_lengths(assembly, 1.0 / self.scale, 1.0 / self.scale.max(1.0));
-        let modes = solve_in_high_precision(&scaled, self.spherical, plan, expected);
+        let modes = solve_in_high_precision(&scaled, self.spherical, plan, expected, most_tries);
         assembly.complete_with(modes, &self.open.variables, expected, R::BITS);
         self.finish(assembly);
     }
