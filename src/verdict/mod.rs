@@ -64,6 +64,15 @@ pub struct Verdict {
     pub reason: String,
 }
 
+impl Verdict {
+    /// Returns whether the real solutions are all listed, and the number of complex ones is not known.
+    #[must_use]
+    pub fn is_of_real_ones(&self) -> bool {
+        let is_list = matches!(self.status, Status::Complete | Status::Unreachable);
+        is_list && self.proof != Proof::None && !self.complex_complete
+    }
+}
+
 /// An upper bound on the number of isolated solutions, and where it comes from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bound {

@@ -9,7 +9,7 @@ use looproot::internal::error::Error;
 use looproot::internal::linkage::assembly::Asked;
 use looproot::internal::mobility::solve_or_move;
 use looproot::internal::report::linkage as report;
-use looproot::internal::verdict::{Code, Proof, Status, Verdict};
+use looproot::internal::verdict::{Proof, Status, Verdict};
 use looproot::internal::view::drawable;
 use serde_json::{Value, json};
 use std::borrow::Cow;
@@ -35,8 +35,8 @@ pub fn run(options: &SolveOptions, file: &LinkageFile, output: Output) -> Result
         let asked = Asked { complex: options.complex, stop: &stop };
         let answer = solve_or_move(file, case, asked).map_err(|error| error.at(&options.mechanism, line))?;
         exit = exit.max(code(&answer.verdict));
-        // Complex assemblies that were asked for and not looked for.
-        if options.complex && answer.verdict.code == Code::BoxesExhausted {
+        // Complex assemblies that were asked for and not looked for, or that form curves.
+        if options.complex && answer.verdict.is_of_real_ones() {
             exit = exit.max(Exit::NotProved);
         }
         if options.json || options.jsonl {
