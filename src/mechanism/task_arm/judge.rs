@@ -70,6 +70,7 @@ impl TaskArm {
             }
         }
         let exact = listed.iter().filter(|mode| !mode.near).count();
+        let with_multiplicity = listed.iter().filter(|mode| !mode.near).map(|mode| mode.multiplicity.max(1)).sum();
         let listed_none = listed.is_empty();
         let mut closest: Option<(Vec<f64>, PoseError)> = None;
         for other in others.iter().filter(|other| listed_none || is_nearly_real(&other.mode)) {
@@ -107,8 +108,7 @@ impl TaskArm {
             (verdict.proof, verdict.code, verdict.self_motion) = (Proof::None, Code::SelfMotion, 0);
         }
         let near = listed.len() - exact;
-        verdict.real = exact;
-        verdict.complex = exact;
+        (verdict.real, verdict.complex) = (with_multiplicity, with_multiplicity);
         verdict.complex_complete = false;
         verdict.certified = listed.iter().filter(|mode| mode.certified).count();
         let conditions = 6 - filled.len();
