@@ -106,7 +106,7 @@ impl Search<'_> {
     ) -> bool {
         starts.iter().zip(done).all(|(pairs, done)| {
             let prove = || from_pairs(closed, &pairs.map(|(cos, sin)| (cos.lifted(), sin.lifted())));
-            *done || prove().and_then(|refined| self.refined_mode(refined)).is_some_and(|mode| self.list(mode, S::REAL))
+            *done || prove().map(|refined| self.refined_mode(refined)).is_some_and(|mode| self.list(mode, S::REAL))
         })
     }
 
@@ -121,7 +121,7 @@ impl Search<'_> {
             let refined = if S::REAL { refined_real_of(self.closed, &real, self.gap_rounding) } else { None };
             // Near singular positions the rounding of the pose to f64 moves a solution beyond its neighbour.
             let exact = || refined_exactly(exact.as_ref()?, &start);
-            let refined = refined.or_else(exact).and_then(|refined| self.refined_mode(refined));
+            let refined = refined.or_else(exact).map(|refined| self.refined_mode(refined));
             refined.or_else(|| self.proved_mode(&start)).is_some_and(|mode| self.list(mode, S::REAL))
         })
     }

@@ -564,11 +564,11 @@ impl Search<'_> {
 
     /// Returns a solution proved in double-double arithmetic from a start nearby, real if its imaginary parts vanish.
     pub(super) fn proved_mode(&self, start: &Six<Complex<f64>>) -> Option<Mode> {
-        self.refined_mode(refined_certificate_of(self.closed, start, self.gap_rounding)?)
+        refined_certificate_of(self.closed, start, self.gap_rounding).map(|refined| self.refined_mode(refined))
     }
 
     /// Returns the mode of a solution proved in longer numbers.
-    pub(super) fn refined_mode(&self, refined: Refined) -> Option<Mode> {
+    pub(super) fn refined_mode(&self, refined: Refined) -> Mode {
         let Refined { mut unknowns, real, certificate, condition } = refined;
         for (z, variable) in unknowns.iter_mut().zip(self.closed.variables) {
             if variable == Variable::Rotation {
@@ -578,7 +578,7 @@ impl Search<'_> {
         let here = closure(self.closed, &unknowns);
         // Next to a singular position the matrix of f64 may be singular.
         let inverse = dense::inverse(&here.jacobian);
-        Some(Mode {
+        Mode {
             unknowns,
             real,
             multiplicity: 1,
@@ -586,7 +586,7 @@ impl Search<'_> {
             condition: inverse.map_or(condition, |inverse| dense::norm(&here.jacobian) * dense::norm(&inverse)),
             certificate: Some(certificate),
             hits: Hits::first(self.assembly.tries),
-        })
+        }
     }
 
     /// Classifies the modes without certificate as multiple, points of a self-motion, or unknown.

@@ -1,7 +1,7 @@
 //! Solutions that f64 does not reach are found from the exact data, and those that it does reach come out the same.
 
 use looproot::internal::assembly::platform::{PlatformAssembly, PlatformSolver, PlatformWorkspace};
-use looproot::internal::assembly::{Assembly, Mode, Roots, Solver, Workspace, distance};
+use looproot::internal::assembly::{Assembly, MOST_TRIES, Mode, Roots, Solver, Workspace, distance};
 use looproot::internal::benchmark::platform::sample::{PlatformSet, sample as platform};
 use looproot::internal::benchmark::sample::{CHAINS, Sample, Set, sample};
 use looproot::internal::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop};
@@ -95,7 +95,7 @@ fn both_precisions_find_the_same_solutions() {
         };
         let (mut fast, mut exact) = (Assembly::default(), Assembly::default());
         solver.solve(&closing, Roots::All, &mut Workspace::default(), &mut fast);
-        solver.solve_in_high_precision(&closed::<LongFloat>(&drawn, &layout).2, None, *count, &mut exact);
+        solver.solve_in_high_precision(&closed::<LongFloat>(&drawn, &layout).2, None, *count, MOST_TRIES, &mut exact);
         assert_eq!((fast.total(), exact.total(), exact.by_high_precision), (*count, *count, *count), "{name}");
         assert_eq!(fast.real(), exact.real(), "{name}");
         for mode in &fast.modes {
@@ -107,7 +107,7 @@ fn both_precisions_find_the_same_solutions() {
             assert!(near < 1e-8, "{name}: {near:e}");
         }
         // Solutions that are there already are not counted as new.
-        solver.solve_in_high_precision(&closed::<LongFloat>(&drawn, &layout).2, None, *count, &mut fast);
+        solver.solve_in_high_precision(&closed::<LongFloat>(&drawn, &layout).2, None, *count, MOST_TRIES, &mut fast);
         assert_eq!((fast.total(), fast.by_high_precision), (*count, 0), "{name}");
     }
 }
