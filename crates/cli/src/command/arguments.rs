@@ -1,10 +1,10 @@
-//! The words of the command line.
+//! The options of the verbs.
 
 use super::help;
 pub use super::motion_arguments::{DynamicsOptions, InstantOptions, MotionOptions};
-use super::poly::arguments::{PolyOptions, format};
+use super::poly::arguments::format;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use looproot::internal::catalogue::{Chains, Options};
 use looproot::internal::derivation::Way;
@@ -12,62 +12,6 @@ use looproot::internal::report::convert::Target;
 use looproot::internal::report::paper::Style;
 use looproot_algebra::text::Format;
 use std::path::PathBuf;
-
-/// All solutions of kinematic closure equations, with a verdict on completeness.
-#[derive(Parser)]
-#[command(version, about, disable_help_subcommand = true, after_help = EXIT_CODES)]
-pub struct Arguments {
-    /// What to do.
-    #[command(subcommand)]
-    pub verb: Verb,
-}
-
-const EXIT_CODES: &str = "\
-Exit codes: 0 complete and certified, 1 usage or input, 2 not proved complete or a self-motion,
-            3 no real solution, 4 unsupported, 130 interrupted; of several answers 1, 4, 2, 3, 0 in this order.";
-
-/// The verbs.
-#[derive(Subcommand)]
-pub enum Verb {
-    /// Find every solution of a mechanism file
-    Solve(SolveOptions),
-    /// Derive the closure equations and the exact closure polynomial of one case
-    Derive(DeriveOptions),
-    /// Run the input of a loop through a range: branches, limit positions
-    Sweep(SweepOptions),
-    /// Draw what solve, sweep or mobility finds as a page that stands by itself
-    View(Box<ViewOptions>),
-    /// Decide whether a loop, an arm, a platform or a framework moves, with proof
-    Mobility(MobilityOptions),
-    /// Find all dyads through given positions, or all four-bars for pairs of angles or through points
-    Synthesize(SynthesizeOptions),
-    /// Factor a rational motion and close loops of its factorisations
-    Factor(FactorOptions),
-    /// Derive for which parameters a closed chain of revolute joints moves
-    Conditions(ConditionsOptions),
-    /// Convert a rotation or a displacement into every parametrisation, with all branches
-    Motion(MotionOptions),
-    /// The instantaneous motion of a body of a linkage: pole, inflection circle, centres of curvature
-    Instant(InstantOptions),
-    /// The equations of motion of a linkage with masses, the forces in its joints, and its motion in time
-    Dynamics(DynamicsOptions),
-    /// List the built-in library
-    List(ListOptions),
-    /// Print a mechanism as it was understood
-    Show(ShowOptions),
-    /// Write an arm as a file of another format
-    Convert(ConvertOptions),
-    /// Test every claim of mechanism files
-    Check(CheckOptions),
-    /// Check certificates of answers, without solving anything
-    Verify(VerifyOptions),
-    /// Polynomials: multiply out, eliminate, determinants, real roots
-    Poly(PolyOptions),
-    /// Measure accuracy and speed on random arms and platforms
-    Bench(BenchOptions),
-    /// Print the completions of a shell
-    Completions(CompletionsOptions),
-}
 
 /// How to read numbers.
 #[derive(Args, Clone)]

@@ -1,6 +1,7 @@
 //! `looproot completions`
 
-use super::arguments::{Arguments, CompletionsOptions};
+use super::Arguments;
+use super::arguments::CompletionsOptions;
 use super::exit::{Exit, Fault};
 use super::output::print;
 use clap::CommandFactory;
