@@ -13,7 +13,8 @@ use crate::algebra::univariate::Univariate;
 use crate::certify::{Refined, exponential, exponential_pair, from_pairs};
 use crate::elimination::coordinate_ring::{self, CoordinateRing};
 use crate::elimination::cut::{Cut, Hidden};
-use crate::elimination::degree::{TurnedPencil, general_degree, turned_pencil};
+use crate::elimination::degree::{TurnedPencil, turned_pencil};
+use crate::elimination::kind::Elimination;
 use crate::elimination::octic;
 use crate::elimination::opposite_axes::OppositeAxes;
 use crate::elimination::point_reach::Reach;
@@ -62,11 +63,11 @@ pub(super) fn solve_in_high_precision<R: Extended>(
         tries += 1;
         note(&candidates) || (tries == 1 && by_ring().is_some_and(|all| note(&all))) || tries >= most_tries
     };
-    match (spherical, general_degree(exact.variables)) {
-        (Some(spherical), _) => _ = take(centre(exact, spherical).unwrap_or_default()),
-        (None, Some(2)) => _ = take(spherical_triangle(exact).unwrap_or_default()),
-        (None, Some(8)) => four_bars(exact, &mut take),
-        _ => cuts(exact, &mut take),
+    match Elimination::of(exact.variables, spherical) {
+        Elimination::Centre(spherical) => _ = take(centre(exact, spherical).unwrap_or_default()),
+        Elimination::Triangle => _ = take(spherical_triangle(exact).unwrap_or_default()),
+        Elimination::FourBar => four_bars(exact, &mut take),
+        Elimination::Cut | Elimination::Planar => cuts(exact, &mut take),
     }
     if tries == 0
         && let Some(all) = by_ring()

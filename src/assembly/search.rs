@@ -13,7 +13,7 @@ use crate::certify::{Refined, certificate, certificate_in_any_frame, refined_cer
 use crate::closure::half_angle::{HalfAngleForm, half_angle_form};
 use crate::closure::woernle_lee::MarkedLine;
 use crate::elimination::cut::{Cut, Hidden};
-use crate::elimination::degree::general_degree;
+use crate::elimination::kind::Elimination;
 use crate::elimination::pencil::{before_second_link, bilinear};
 use crate::elimination::rearranged::rearranged;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
@@ -87,11 +87,11 @@ impl Search<'_> {
         if is_asked && self.by_closed_form(most, Rounded::STORED) {
             return;
         }
-        match general_degree(self.closed.variables) {
-            _ if self.spherical.is_some() => self.spherical.into_iter().for_each(|spherical| self.centre(spherical)),
-            Some(2) => self.triangle(),
-            Some(8) => self.four_bars(most),
-            _ => self.all_cuts(most),
+        match Elimination::of(self.closed.variables, self.spherical) {
+            Elimination::Centre(spherical) => self.centre(spherical),
+            Elimination::Triangle => self.triangle(),
+            Elimination::FourBar => self.four_bars(most),
+            Elimination::Cut | Elimination::Planar => self.all_cuts(most),
         }
         match self.effort {
             Effort::OnePencil => return,
@@ -199,7 +199,8 @@ impl Search<'_> {
                 let proved = self.proved();
                 // Modes without a certificate are double as a rule; the verdict decides later.
                 let likely = 2 * self.assembly.modes.len() - proved;
-                let general = general_degree(self.closed.variables).unwrap_or(0);
+                let variables = self.closed.variables;
+                let general = Elimination::of(variables, None).degree(variables).unwrap_or(0);
                 proved >= general
                     || self.is_full(proved, most)
                     || (all_resolved && (likely >= general || likely >= most(likely)))

@@ -14,9 +14,8 @@ use crate::algebra::double_double::DoubleDouble;
 use crate::closure::half_angle::half_angle_form;
 use crate::elimination::coordinate_ring::Plan;
 use crate::elimination::cut::{Cut, Hidden};
-use crate::elimination::degree::general_degree;
+use crate::elimination::kind::Elimination;
 use crate::elimination::pencil::{before_second_link, bilinear};
-use crate::elimination::point_reach::general_count;
 use crate::kinematics::closed_loop::{ClosedLoop, OpenLoop, Variable};
 use crate::kinematics::motion::Motion;
 use crate::kinematics::tolerance::Tolerance;
@@ -221,16 +220,17 @@ impl Solver {
     /// Returns whether the loop has fewer than three rotations: its links move in parallel planes or only translate.
     #[must_use]
     pub fn is_out_of_reach(&self) -> bool {
-        general_degree(self.open.variables).is_none()
+        self.elimination() == Elimination::Planar
     }
 
     /// Returns the degree of the closure polynomial of general loops with these unknowns, 0 if [`Self::is_out_of_reach`].
     #[must_use]
     pub fn general_degree(&self) -> usize {
-        match self.spherical {
-            Some(spherical) => general_count([3, 4, 5].map(|k| self.open.variables[(spherical + k) % 6])),
-            None => general_degree(self.open.variables).unwrap_or(0),
-        }
+        self.elimination().degree(self.open.variables).unwrap_or(0)
+    }
+
+    fn elimination(&self) -> Elimination {
+        Elimination::of(self.open.variables, self.spherical)
     }
 
     /// Returns the distance to be closed and the total length of the links, in the unit of the mechanism, if the former is

@@ -7,7 +7,7 @@ use super::{Derivation, Equation, cuts, four_bar, triangle, two_sides};
 use crate::algebra::drawn::Drawn;
 use crate::algebra::univariate::Univariate;
 use crate::catalogue::entry::Case;
-use crate::elimination::degree::general_degree;
+use crate::elimination::kind::Elimination;
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
@@ -42,6 +42,12 @@ pub(super) struct Exact {
     pub spherical: Option<usize>,
 }
 
+impl Exact {
+    pub fn elimination(&self) -> Elimination {
+        Elimination::of(self.closed.variables, self.spherical)
+    }
+}
+
 /// Derives one case of an arm or a loop.
 pub(super) fn derive(chain: &Chain, case: &Case) -> Result<Derivation> {
     if let Some(ss_dyad) = ss_dyad_loop::<Rational>(chain, case)? {
@@ -51,7 +57,7 @@ pub(super) fn derive(chain: &Chain, case: &Case) -> Result<Derivation> {
     }
     let exact = exact(chain, case)?;
     // With six unknown rotations, or five and a translation, the ring takes as long as the elimination.
-    let is_long = exact.spherical.is_none() && general_degree(exact.closed.variables) == Some(16);
+    let is_long = exact.elimination() == Elimination::Cut;
     let (eliminated, count) =
         rayon::join(|| eliminate(&exact), || if is_long { true_roots::count(&exact) } else { None });
     let mut derivation = settle(&exact, eliminated?, count)?;
@@ -85,12 +91,12 @@ pub(super) fn exact(chain: &Chain, case: &Case) -> Result<Exact> {
 
 /// Carries out the elimination that fits the unknowns.
 pub(super) fn eliminate(exact: &Exact) -> Result<Eliminated> {
-    let eliminated = match (exact.spherical, general_degree(exact.closed.variables)) {
-        (Some(spherical), _) => Some(two_sides::spherical(exact, spherical)),
-        (None, Some(2)) => triangle::eliminate(exact),
-        (None, Some(8)) => two_sides::opposite_axes(exact).or_else(|| four_bar::eliminate(exact)),
-        (None, Some(_)) => Some(cuts::eliminate(exact)),
-        (None, None) => {
+    let eliminated = match exact.elimination() {
+        Elimination::Centre(spherical) => Some(two_sides::spherical(exact, spherical)),
+        Elimination::Triangle => triangle::eliminate(exact),
+        Elimination::FourBar => two_sides::opposite_axes(exact).or_else(|| four_bar::eliminate(exact)),
+        Elimination::Cut => Some(cuts::eliminate(exact)),
+        Elimination::Planar => {
             let rotations = exact.closed.variables.iter().filter(|v| **v == Variable::Rotation).count();
             return Err(Error::Unsupported(format!(
                 "{rotations} unknown rotations: planar and translational loops have no exact route; derived are loops with three \

@@ -8,7 +8,8 @@
 //! a prime have none over the rationals: such a loop does not close.
 
 use super::cut::{Cut, Hidden};
-use super::degree::{closure_polynomial, general_degree};
+use super::degree::closure_polynomial;
+use super::kind::Elimination;
 use super::octic;
 use super::separated::offset;
 use super::spherical_four_bar::FourBar;
@@ -33,8 +34,8 @@ pub fn common_roots<F: Field + Domain>(
         best = Some(best.map_or(count, |b: usize| b.min(count)));
         best <= Some(enough)
     };
-    match general_degree(one.variables) {
-        Some(16) => {
+    match Elimination::of(one.variables, None) {
+        Elimination::Cut => {
             for cut in Cut::ALL {
                 for (hidden, unknown) in [(Hidden::First, 0), (Hidden::Second, 1)] {
                     if is_idle[cut.unknown_index(unknown)] {
@@ -48,7 +49,7 @@ pub fn common_roots<F: Field + Domain>(
                 }
             }
         }
-        Some(8) => {
+        Elimination::FourBar => {
             let (one, other): (LinkForm<F, 4, 2>, LinkForm<F, 4, 2>) = (LinkForm::of(one)?, LinkForm::of(other)?);
             for base in 0..4 {
                 for (hidden, unknown) in [(Hidden::First, base), (Hidden::Second, (base + 1) % 4)] {
@@ -63,7 +64,7 @@ pub fn common_roots<F: Field + Domain>(
                 }
             }
         }
-        _ => {}
+        Elimination::Centre(_) | Elimination::Triangle | Elimination::Planar => {}
     }
     best
 }

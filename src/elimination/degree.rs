@@ -10,6 +10,7 @@
 //! \[SommeseWampler2005\]
 
 use super::cut::{Cut, Hidden};
+use super::kind::Elimination;
 use super::pencil::{Pencil, before_second_link, bilinear, offset, pencil};
 use super::rearranged::{Rearranged, rearranged};
 use super::{octic, spherical_triangle};
@@ -39,18 +40,6 @@ pub struct Degree {
     pub solutions: usize,
     /// The number of roots of the closure polynomial that were left out.
     pub left_out: usize,
-}
-
-/// The degree of the closure polynomial of a general loop with these unknowns; `None` for fewer than three rotations,
-/// which move in parallel planes.
-#[must_use]
-pub fn general_degree(variables: [Variable; 6]) -> Option<usize> {
-    match variables.iter().filter(|v| **v == Variable::Rotation).count() {
-        0..3 => None,
-        3 => Some(2),
-        4 => Some(8),
-        _ => Some(16),
-    }
 }
 
 /// Cosine and sine of the angle with half-angle tangent `t`; `None` where `1 + t^2` has no inverse.
@@ -112,16 +101,14 @@ pub fn degree<F: Field + Domain>(
     other: Option<&ClosedLoop<F>>,
     enough: usize,
 ) -> Option<Degree> {
-    let general = general_degree(closed.variables)?;
-    if general == 16 {
-        return degree_by_cuts(closed, other, enough);
-    }
-    let solutions = if general == 2 {
-        spherical_triangle::count(&LinkForm::of(closed)?)?
-    } else {
-        octic::bound(&LinkForm::of(closed)?)?
+    let elimination = Elimination::of(closed.variables, None);
+    let solutions = match elimination {
+        Elimination::Cut => return degree_by_cuts(closed, other, enough),
+        Elimination::Triangle => spherical_triangle::count(&LinkForm::of(closed)?)?,
+        Elimination::FourBar => octic::bound(&LinkForm::of(closed)?)?,
+        Elimination::Centre(_) | Elimination::Planar => return None,
     };
-    Some(Degree { solutions, left_out: general - solutions })
+    Some(Degree { solutions, left_out: elimination.degree(closed.variables)? - solutions })
 }
 
 /// [`degree`] of a loop with five or six rotations.

@@ -9,6 +9,7 @@ pub mod coordinate_ring;
 pub mod cut;
 pub mod degree;
 pub mod graded_quotient;
+pub mod kind;
 pub mod multiple_pose;
 pub mod octic;
 pub mod opposite_axes;

@@ -20,7 +20,7 @@ use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::Ring;
 use crate::algebra::text::Names;
 use crate::catalogue::entry::{Case, Design, Entry};
-use crate::elimination::degree::general_degree;
+use crate::elimination::kind::Elimination;
 use crate::error::{Error, Result};
 use crate::kinematics::chain::{Chain, JointKind};
 use crate::kinematics::link_form::LinkForm;
@@ -148,8 +148,7 @@ fn numeric(chain: &Chain, case: &Case) -> Result<(Symbols, Option<Numeric>)> {
     }
     let exact = exact(chain, case)?;
     let is_neighbour = || LinkForm::of(&exact.closed).is_some_and(|form| dual::opposite_link(&form).is_some());
-    let special = exact.spherical.is_some()
-        || general_degree(exact.closed.variables) == Some(2)
+    let special = matches!(exact.elimination(), Elimination::Centre(_) | Elimination::Triangle)
         || two_sides::is_opposite(&exact)
         || is_neighbour();
     if !special {

@@ -7,7 +7,8 @@ use crate::algebra::univariate::Univariate;
 use crate::catalogue::entry::{Case, InputValue};
 use crate::derivation::chain::{Exact, Mod};
 use crate::derivation::{cuts, four_bar};
-use crate::elimination::degree::{closure_polynomial, general_degree, half_tangent_pair};
+use crate::elimination::degree::{closure_polynomial, half_tangent_pair};
+use crate::elimination::kind::Elimination;
 use crate::elimination::octic;
 use crate::elimination::separated::offset;
 use crate::elimination::spherical_four_bar::FourBar;
@@ -60,7 +61,7 @@ impl Parameters<Mod> for Point<'_, '_> {
 
 /// Returns the error that states the size of the closure polynomial.
 pub(super) fn too_large(chain: &Chain, case: &Case, exact: &Exact) -> Error {
-    let what = match general_degree(exact.closed.variables) {
+    let what = match exact.elimination().degree(exact.closed.variables) {
         Some(degree) => format!("the closure polynomial of this loop, of degree {degree} in general,"),
         None => "the closure polynomial of this loop".to_owned(),
     };
@@ -126,10 +127,13 @@ enum Choice {
 impl Choice {
     fn of(exact: &Exact) -> Option<Self> {
         let modular = exact.modular.as_ref()?;
-        if general_degree(exact.closed.variables)? == 16 {
-            return cuts::choice(modular).map(|(cut, hidden)| Self::Cut(cut, hidden));
+        match exact.elimination() {
+            Elimination::Cut => cuts::choice(modular).map(|(cut, hidden)| Self::Cut(cut, hidden)),
+            Elimination::FourBar => {
+                four_bar::choice(&LinkForm::of(modular)?).map(|(base, hidden)| Self::Link(base, hidden))
+            }
+            Elimination::Centre(_) | Elimination::Triangle | Elimination::Planar => None,
         }
-        four_bar::choice(&LinkForm::of(modular)?).map(|(base, hidden)| Self::Link(base, hidden))
     }
 
     fn polynomial(&self, closed: &crate::kinematics::closed_loop::ClosedLoop<Mod>) -> Option<Univariate<Mod>> {

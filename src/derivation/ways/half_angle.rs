@@ -7,15 +7,14 @@ use crate::algebra::ring::Ring;
 use crate::derivation::chain::{self, Exact};
 use crate::derivation::symbols::Symbols;
 use crate::derivation::{Equation, cuts};
-use crate::elimination::degree::general_degree;
+use crate::elimination::kind::Elimination;
 use crate::error::Result;
 use rug::Rational;
 
 /// Derives the equations of the loop in half-angle tangents, and their resultants.
 pub(super) fn found(exact: &Exact, unknown: usize) -> Result<Found> {
     let none = |why: &str| refusal(Way::HalfAngle, why);
-    let is_cut = exact.spherical.is_none() && general_degree(exact.closed.variables) == Some(16);
-    let eliminated = if is_cut {
+    let eliminated = if exact.elimination() == Elimination::Cut {
         cuts::eliminate_keeping(exact, unknown).ok_or_else(|| none("every cut that keeps the unknown loses equations"))?
     } else {
         chain::eliminate(exact)?

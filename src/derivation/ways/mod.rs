@@ -17,7 +17,7 @@ use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::Ring;
 use crate::algebra::univariate::Univariate;
 use crate::catalogue::entry::{Case, Design, Entry};
-use crate::elimination::degree::general_degree;
+use crate::elimination::kind::Elimination;
 use crate::error::{Error, Result};
 use crate::mechanism::ss_dyad_loop;
 use rug::{Integer, Rational};
@@ -131,11 +131,10 @@ pub fn derive_by(entry: &Entry, case: &Case, way: Way) -> Result<ByWay> {
 
 /// Derives another unknown.
 fn keeping(entry: &Entry, exact: &Exact, unknown: usize, own: &Derivation) -> Option<Derivation> {
-    let eliminated = match general_degree(exact.closed.variables) {
-        _ if exact.spherical.is_some() => None,
-        Some(16) => cuts::eliminate_keeping(exact, unknown),
-        Some(8) => four_bar::eliminate_keeping(exact, unknown),
-        _ => None,
+    let eliminated = match exact.elimination() {
+        Elimination::Cut => cuts::eliminate_keeping(exact, unknown),
+        Elimination::FourBar => four_bar::eliminate_keeping(exact, unknown),
+        Elimination::Centre(_) | Elimination::Triangle | Elimination::Planar => None,
     }?;
     let found = chain::settle(exact, eliminated, None).ok()?;
     found.polynomial.as_ref()?;
@@ -166,12 +165,14 @@ fn woernle_lee(exact: &Exact, unknown: usize) -> Result<Found> {
         }))
     });
     let matrix = |rows, columns, entries, meaning: &str| Matrix { rows, columns, entries, meaning: meaning.to_owned() };
-    let matrix = match (exact.spherical, general_degree(exact.closed.variables)) {
-        (Some(_), _) => matrix(2, 3, 2, "two equations over (1, cos, sin), or (1, d, d^2), of the unknown that goes"),
-        (None, Some(2)) => matrix(1, 3, 2, "one equation over (1, cos, sin) of the unknown"),
-        (None, Some(16)) => matrix(8, 8, 2, "four equations times 1 and a half-angle tangent, over the products of its powers up to 3 with (1, the \
+    let matrix = match exact.elimination() {
+        Elimination::Centre(_) => matrix(2, 3, 2, "two equations over (1, cos, sin), or (1, d, d^2), of the unknown that goes"),
+        Elimination::Triangle => matrix(1, 3, 2, "one equation over (1, cos, sin) of the unknown"),
+        Elimination::Cut => matrix(8, 8, 2, "four equations times 1 and a half-angle tangent, over the products of its powers up to 3 with (1, the \
                                             half-angle tangent of the third unknown)"),
-        _ => matrix(2, 3, 2, "two equations over (1, cos, sin) of the unknown that goes"),
+        Elimination::FourBar | Elimination::Planar => {
+            matrix(2, 3, 2, "two equations over (1, cos, sin) of the unknown that goes")
+        }
     };
     Ok(Found { equations: eliminated.equations, steps: eliminated.steps, matrix, eliminants: vec![whole] })
 }

@@ -7,6 +7,7 @@ use crate::algebra::circle_fraction::CircleFraction;
 use crate::algebra::ring::Ring;
 use crate::algebra::univariate::Univariate;
 use crate::elimination::cut::Hidden;
+use crate::elimination::kind::Elimination;
 use crate::elimination::octic::{closure_polynomial, root_conditions};
 use crate::elimination::opposite_axes::OppositeAxes;
 use crate::elimination::point_reach::Reach;
@@ -98,13 +99,11 @@ pub(super) fn relations(chain: &Chain, layout: &Layout, moved: Moved<'_>, offset
         return if found.is_empty() { super::by_cut::relations(chain, layout, offset) } else { found };
     }
     let Some(indices) = indices.into_iter().collect::<Option<Vec<usize>>>() else { return Vec::new() };
-    if let Some(spherical) = layout.spherical_unknown() {
-        return reach(&closed, spherical, &indices);
-    }
-    match closed.variables.iter().filter(|kind| **kind == Variable::Rotation).count() {
-        3 => triangles(&closed, &indices),
-        4 => four_rotations(&closed, &indices),
-        _ => Vec::new(),
+    match Elimination::of(closed.variables, layout.spherical_unknown()) {
+        Elimination::Centre(spherical) => reach(&closed, spherical, &indices),
+        Elimination::Triangle => triangles(&closed, &indices),
+        Elimination::FourBar => four_rotations(&closed, &indices),
+        Elimination::Cut | Elimination::Planar => Vec::new(),
     }
 }
 
