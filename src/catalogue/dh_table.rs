@@ -66,7 +66,8 @@ fn joint(scope: &Scope<'_>, line: &str, at: usize) -> Result<Joint> {
     let Ok([kind, a, alpha, d, theta0]) = <[Node; 5]>::try_from(cells) else {
         return Err(scope.fail(at, format!("found {} values, expected 5", line.split(',').count())));
     };
-    let kind = joint_kind(scope, &kind, &[JointKind::Revolute, JointKind::Prismatic, JointKind::Cylindrical])?;
+    let plain: Vec<JointKind> = JointKind::ALL.into_iter().filter(|kind| kind.is_plain()).collect();
+    let kind = joint_kind(scope, &kind, &plain)?;
     let length = |node: &Node, what: &str| -> Result<Number> { scope.length(node, what) };
     Ok(Joint {
         kind,

@@ -9,7 +9,7 @@ use crate::algebra::number::{Angle, Number, Quantity};
 use crate::error::Result;
 use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement, ScrewJoint};
 use crate::kinematics::freedom::Freedom;
-use crate::kinematics::joint::Variable;
+use crate::kinematics::joint::{DhConstant, Variable};
 use crate::kinematics::platform_limits::PlatformLimits;
 use rug::Rational;
 
@@ -142,10 +142,21 @@ pub(super) fn check_kinds(
     Err(scope.fail(
         line,
         format!(
-            "found {joints} joints with {count} variables (R, P and H count 1, C and U 2, S 3), {}; {what}",
+            "found {joints} joints with {count} variables ({}), {}; {what}",
+            counts(),
             expected.1
         ),
     ))
+}
+
+/// How many variables each type of joint counts.
+fn counts() -> String {
+    let most = JointKind::ALL.into_iter().map(JointKind::freedoms).max().unwrap_or(0);
+    let one = |n: usize| {
+        let count = if n == 1 { "count " } else { "" };
+        format!("{} {count}{n}", JointKind::letters(|kind| kind.freedoms() == n, "and"))
+    };
+    (1..=most).map(one).collect::<Vec<_>>().join(", ")
 }
 
 /// Reads the kind of a joint, one of these.
@@ -181,29 +192,19 @@ const DH_KEYS: [&str; 12] = [
 fn joint(scope: &Scope<'_>, node: &Node) -> Result<Joint> {
     let kind = kind_of(scope, node, &DH_KEYS)?;
     let link = ["type", "name", "a", "alpha", "tan_half_alpha"];
-    let (own, what): (&[&str], &str) = match kind {
-        JointKind::Revolute => (&["d", "theta0", "tan_half_theta0"], "an R joint"),
-        JointKind::Prismatic => (&["d0", "theta", "tan_half_theta"], "a P joint"),
-        JointKind::Cylindrical => (&["d0", "theta0", "tan_half_theta0"], "a C joint"),
-        JointKind::Helical => (&["d", "theta0", "tan_half_theta0", "pitch"], "an H joint"),
-        JointKind::Universal => (&["d"], "a U joint"),
-        JointKind::Spherical => (&["d"], "an S joint"),
-    };
-    let table = scope.table(node, what, &[&link, own].concat())?;
+    let (key_of_d, keys_of_theta) = (kind.row().d.key_of_d(), kind.row().theta.keys_of_theta());
+    let own = key_of_d.into_iter().chain(keys_of_theta.into_iter().flatten()).chain(key_of_pitch(kind));
+    let table = scope.table(node, kind.row().called, &link.into_iter().chain(own).collect::<Vec<_>>())?;
     let a = scope.length(scope.need(&table, "a")?, "a")?;
     let alpha = angle(scope, &table, "alpha", "tan_half_alpha", true)?;
-    let optional = |key: &str| table.get(key).map_or(Ok(Number::zero()), |node| scope.length(node, key));
-    let d = match kind {
-        JointKind::Revolute | JointKind::Helical => scope.length(scope.need(&table, "d")?, "d")?,
-        JointKind::Prismatic | JointKind::Cylindrical => optional("d0")?,
-        JointKind::Universal | JointKind::Spherical => optional("d")?,
+    let d = match key_of_d {
+        Some(key) if kind.row().d == DhConstant::Stated => scope.length(scope.need(&table, key)?, key)?,
+        Some(key) => table.get(key).map_or(Ok(Number::zero()), |node| scope.length(node, key))?,
+        None => Number::zero(),
     };
-    let theta0 = match kind {
-        JointKind::Prismatic => angle(scope, &table, "theta", "tan_half_theta", true)?,
-        JointKind::Universal | JointKind::Spherical => Angle::zero(),
-        JointKind::Revolute | JointKind::Cylindrical | JointKind::Helical => {
-            angle(scope, &table, "theta0", "tan_half_theta0", false)?
-        }
+    let theta0 = match keys_of_theta {
+        Some([key, half]) => angle(scope, &table, key, half, kind.row().theta == DhConstant::Stated)?,
+        None => Angle::zero(),
     };
     Ok(Joint { kind, a, alpha, d, theta0, pitch: pitch(scope, &table, kind)? })
 }
@@ -229,8 +230,12 @@ fn bond(scope: &Scope<'_>, node: &Node) -> Result<Joint> {
     Ok(Joint { kind: JointKind::Revolute, a, alpha, d, theta0, pitch: None })
 }
 
+fn key_of_pitch(kind: JointKind) -> Option<&'static str> {
+    kind.row().has_pitch.then_some("pitch")
+}
+
 fn pitch(scope: &Scope<'_>, table: &Table<'_>, kind: JointKind) -> Result<Option<Number>> {
-    if kind == JointKind::Helical { scope.length(scope.need(table, "pitch")?, "pitch").map(Some) } else { Ok(None) }
+    key_of_pitch(kind).map(|key| scope.length(scope.need(table, key)?, key)).transpose()
 }
 
 /// Reads an angle given directly or by its half-angle tangent, but not both.
@@ -262,16 +267,11 @@ fn screws(scope: &Scope<'_>, table: &Table<'_>, kind: Kind, nodes: &[Node]) -> R
 /// Reads a joint of a list of screw axes.
 fn screw_joint(scope: &Scope<'_>, node: &Node) -> Result<ScrewJoint> {
     let kind = kind_of(scope, node, &["type", "name", "axis", "point", "pitch"])?;
-    let allowed: &[&str] = match kind {
-        JointKind::Helical => &["type", "name", "axis", "point", "pitch"],
-        JointKind::Universal => {
-            return Err(scope.fail(node.line, "found a U joint among screw axes, expected its two R joints"));
-        }
-        JointKind::Revolute | JointKind::Prismatic | JointKind::Cylindrical | JointKind::Spherical => {
-            &["type", "name", "axis", "point"]
-        }
-    };
-    let table = scope.table(node, "a screw joint", allowed)?;
+    if let Some(instead) = kind.row().among_screws {
+        return Err(scope.fail(node.line, format!("found {} among screw axes, expected {instead}", kind.row().called)));
+    }
+    let allowed: Vec<&str> = ["type", "name", "axis", "point"].into_iter().chain(key_of_pitch(kind)).collect();
+    let table = scope.table(node, "a screw joint", &allowed)?;
     let axis_node = scope.need(&table, "axis")?;
     let axis = scope.vector(axis_node, Quantity::Ratio, "axis")?;
     if axis.iter().all(|component| component.rational().is_zero()) {
@@ -280,10 +280,10 @@ fn screw_joint(scope: &Scope<'_>, node: &Node) -> Result<ScrewJoint> {
     // A direction of irrational length has no rational unit vector and is replaced by a nearby one.
     let square: Rational = axis.iter().map(|component| Rational::from(component.rational().square_ref())).sum();
     scope.note(square.numer().is_perfect_square() && square.denom().is_perfect_square());
-    let point = match (table.get("point"), kind) {
-        // A translation has a direction but no location.
-        (None, JointKind::Prismatic) => std::array::from_fn(|_| Number::zero()),
-        _ => scope.vector(scope.need(&table, "point")?, Quantity::Length, "point")?,
+    let point = if table.get("point").is_none() && kind.only_translates() {
+        std::array::from_fn(|_| Number::zero())
+    } else {
+        scope.vector(scope.need(&table, "point")?, Quantity::Length, "point")?
     };
     Ok(ScrewJoint { kind, axis, point, pitch: pitch(scope, &table, kind)? })
 }

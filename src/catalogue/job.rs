@@ -196,10 +196,12 @@ fn input(scope: &Scope<'_>, node: &Node, chain: &Chain) -> Result<Case> {
     };
     if !kind.takes(value.variable()) {
         let found = if matches!(value, InputValue::Angle(_)) { "an angle" } else { "a distance" };
-        let expected = match kind {
-            JointKind::Prismatic => "expected `distance`",
-            JointKind::Spherical | JointKind::Universal => "expected a joint with one variable, or a C joint",
-            JointKind::Revolute | JointKind::Cylindrical | JointKind::Helical => "expected `angle` or `tan_half`",
+        let expected = if !kind.has_one_axis() {
+            "expected a joint with one variable, or a C joint"
+        } else if kind.only_translates() {
+            "expected `distance`"
+        } else {
+            "expected `angle` or `tan_half`"
         };
         let message = format!(
             "found {found} as input of joint {joint}, which is {kind:?} and has none; {expected}: the loop has {}",

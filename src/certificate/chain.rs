@@ -51,7 +51,7 @@ impl<R: Ring> Around<R> {
         let own = || Fault::Unreadable("found numbers that are not known well enough".to_owned());
         let (mut variables, mut motions) = chain.unknowns_and_constants::<R>().ok_or_else(own)?;
         let named = JointVariable::of(&chain.joint_kinds());
-        if variables.len() != named.len() || named.iter().any(|v| v.kind == JointKind::Helical) {
+        if variables.len() != named.len() || named.iter().any(|v| v.kind.row().has_pitch) {
             return refused("closure: a helical joint has no certificate");
         }
         if let (Some(pose), Some(last)) = (case.and_then(|case| case.pose.as_ref()), motions.last_mut()) {

@@ -4,7 +4,8 @@ use super::fault::{Fault, refused};
 use crate::algebra::number::{Angle, Number};
 use crate::catalogue::entry::{Case, Design, Entry, InputValue, Kind};
 use crate::catalogue::{Chains, Format, Options, load_text};
-use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement, ScrewJoint};
+use crate::kinematics::chain::{Chain, Geometry, Joint, Placement, ScrewJoint};
+use crate::kinematics::joint::DhConstant;
 use rug::{Integer, Rational};
 use serde_json::{Map, Value, json};
 
@@ -106,23 +107,17 @@ fn joint(joint: &Joint) -> Result<Value, String> {
     put("type", joint.kind.letter().to_owned());
     put("a", number(&joint.a, "a")?);
     put("alpha", angle(&joint.alpha, "alpha")?);
-    match joint.kind {
-        JointKind::Revolute => {
-            put("d", number(&joint.d, "d")?);
-            put("theta0", angle(&joint.theta0, "theta0")?);
-        }
-        JointKind::Prismatic => {
-            put("theta", angle(&joint.theta0, "theta")?);
-            put("d0", number(&joint.d, "d0")?);
-        }
-        JointKind::Cylindrical => {
-            put("theta0", angle(&joint.theta0, "theta0")?);
-            put("d0", number(&joint.d, "d0")?);
-        }
-        JointKind::Universal | JointKind::Spherical => {
-            put("d", number(&joint.d, "d")?);
-        }
-        JointKind::Helical => return Err("helical joints have no certificate".to_owned()),
+    if joint.kind.row().has_pitch {
+        return Err("helical joints have no certificate".to_owned());
+    }
+    let (d, theta) = (joint.kind.row().d, joint.kind.row().theta);
+    // The order of the keys is part of the text of a certificate: an offset d0 comes last, a constant d before the angle.
+    let mut keys = [d.key_of_d(), theta.keys_of_theta().map(|[key, _]| key)];
+    if d == DhConstant::Offset {
+        keys.reverse();
+    }
+    for key in keys.into_iter().flatten() {
+        put(key, if key.starts_with('d') { number(&joint.d, key)? } else { angle(&joint.theta0, key)? });
     }
     Ok(Value::Object(table))
 }
@@ -138,19 +133,17 @@ fn screw(joint: &ScrewJoint) -> Result<Value, String> {
     let axis = primitive(&joint.axis.each_ref().map(|x| x.rational().clone()));
     let text = |x: &Rational| number(&Number::exact(x.clone()), "point");
     let words = axis.iter().map(Integer::to_string).collect::<Vec<_>>();
-    match joint.kind {
-        JointKind::Prismatic => Ok(json!({ "type": letter, "axis": words })),
-        JointKind::Revolute | JointKind::Cylindrical => {
-            let along: Rational = axis.iter().zip(&joint.point).map(|(u, p)| Rational::from(u * p.rational())).sum();
-            let square: Integer = axis.iter().map(|u| Integer::from(u.square_ref())).sum();
-            let along = along / square;
-            let foot = axis.iter().zip(&joint.point).map(|(u, p)| text(&(p.rational() - Rational::from(u * &along))));
-            Ok(json!({ "type": letter, "axis": words, "point": foot.collect::<Result<Vec<_>, _>>()? }))
-        }
-        JointKind::Helical | JointKind::Universal | JointKind::Spherical => {
-            Err(format!("{letter} joints given by screws have no certificate"))
-        }
+    if !joint.kind.is_plain() {
+        return Err(format!("{letter} joints given by screws have no certificate"));
     }
+    if joint.kind.only_translates() {
+        return Ok(json!({ "type": letter, "axis": words }));
+    }
+    let along: Rational = axis.iter().zip(&joint.point).map(|(u, p)| Rational::from(u * p.rational())).sum();
+    let square: Integer = axis.iter().map(|u| Integer::from(u.square_ref())).sum();
+    let along = along / square;
+    let foot = axis.iter().zip(&joint.point).map(|(u, p)| text(&(p.rational() - Rational::from(u * &along))));
+    Ok(json!({ "type": letter, "axis": words, "point": foot.collect::<Result<Vec<_>, _>>()? }))
 }
 
 /// Returns the whole numbers without a common factor in the ratio of these rational numbers.

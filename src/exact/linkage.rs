@@ -4,7 +4,7 @@ use crate::algebra::echelon::Echelon;
 use crate::algebra::number::Number;
 use crate::algebra::ring::{Field, Ring};
 use crate::error::{Error, Result};
-use crate::kinematics::chain::{Chain, Geometry, JointKind, ScrewJoint};
+use crate::kinematics::chain::{Chain, Geometry, ScrewJoint};
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::dual_quaternion::DualQuaternion;
 use crate::kinematics::freedom::Freedom;
@@ -81,7 +81,7 @@ impl Linkage<Rational> {
         if let Some(linkage) = Self::about_given_axes(chain) {
             return Ok(linkage);
         }
-        if let Some(k) = chain.joint_kinds().iter().position(|kind| *kind == JointKind::Helical) {
+        if let Some(k) = chain.joint_kinds().iter().position(|kind| kind.row().has_pitch) {
             return Err(Error::UnsupportedMobility(format!(
                 "joint {}: H joints are read, but whether a loop of them moves is not decided: they turn by angles and shift by \
                  these angles times a pitch, which no algebra holds together; the loop has {}",
@@ -177,7 +177,7 @@ impl<F: Field> Linkage<F> {
         let mut here: [F; 3] = std::array::from_fn(|_| F::zero());
         let vector = |v: &[Number; 3]| Some([image(&v[0])?, image(&v[1])?, image(&v[2])?]);
         for joint in joints {
-            if !joint.kind.has_one_axis() || joint.kind == JointKind::Helical {
+            if !joint.kind.is_plain() {
                 return None;
             }
             let (axis, point) = (vector(&joint.axis)?, vector(&joint.point)?);

@@ -8,6 +8,7 @@ use super::axis_frame::axis_frame;
 use super::chain::{Chain, Geometry, Joint, JointKind, Placement, ScrewJoint};
 use super::freedom::Freedom;
 use super::idle::Idle;
+use super::joint::Axis;
 pub use super::joint::Variable;
 use super::motion::Motion;
 use crate::algebra::enclosure::Enclosure;
@@ -196,22 +197,21 @@ impl Layout {
     pub fn of(chain: &Chain, locked: Option<usize>) -> Result<Self, Error> {
         let (mut variables, mut spherical, mut second_spherical) = (Vec::new(), None, None);
         for (joint, kind) in (1..).zip(chain.joint_kinds()) {
-            match kind {
-                JointKind::Revolute | JointKind::Prismatic | JointKind::Cylindrical | JointKind::Universal => {}
-                JointKind::Spherical if spherical.is_none() => spherical = Some(variables.len()),
-                JointKind::Spherical if second_spherical.is_none() => second_spherical = Some(variables.len()),
-                JointKind::Spherical => {
-                    return Err(Error::UnsupportedMobility(format!(
+            if kind.row().has_pitch {
+                return Err(Error::UnsupportedMobility(format!(
+                    "joint {joint}: {kind:?} joints are read but not solved yet ({}); solved are {}",
+                    Freedom::of(chain),
+                    JointKind::letters(|kind| !kind.row().has_pitch, "and")
+                )));
+            }
+            if kind == JointKind::Spherical {
+                let free = [&mut spherical, &mut second_spherical].into_iter().find(|place| place.is_none());
+                *free.ok_or_else(|| {
+                    Error::UnsupportedMobility(format!(
                         "joint {joint}: a third S joint ({}); solved are loops with one, or with two and one more unknown",
                         Freedom::of(chain)
-                    )));
-                }
-                JointKind::Helical => {
-                    return Err(Error::UnsupportedMobility(format!(
-                        "joint {joint}: {kind:?} joints are read but not solved yet ({}); solved are R, P, C, U and S",
-                        Freedom::of(chain)
-                    )));
-                }
+                    ))
+                })? = Some(variables.len());
             }
             variables.extend(kind.variables());
         }
@@ -637,30 +637,15 @@ fn link<R: Ring>(at: usize, joint: &Joint, parameters: &impl Parameters<R>) -> O
 
 /// The unknowns of a joint.
 fn screw_steps<R: Ring>(kind: JointKind, steps: &mut Vec<Step<R>>) {
-    match kind {
-        JointKind::Prismatic => steps.push(Step::Unknown(Variable::Translation)),
-        JointKind::Cylindrical => {
-            steps.push(Step::Unknown(Variable::Rotation));
-            steps.push(Step::Unknown(Variable::Translation));
+    for (variable, axis) in kind.variables().iter().zip(kind.row().axes) {
+        match axis {
+            Axis::Z => steps.push(Step::Unknown(*variable)),
+            Axis::X => {
+                let to_x = quarter_turn();
+                let back = to_x.inverse();
+                steps.extend([Step::Constant(to_x), Step::Unknown(*variable), Step::Constant(back)]);
+            }
         }
-        JointKind::Spherical => {
-            // About z, about x, and about z again.
-            let to_x = quarter_turn();
-            steps.push(Step::Unknown(Variable::Rotation));
-            steps.push(Step::Constant(to_x.clone()));
-            steps.push(Step::Unknown(Variable::Rotation));
-            steps.push(Step::Constant(to_x.inverse()));
-            steps.push(Step::Unknown(Variable::Rotation));
-        }
-        JointKind::Universal => {
-            // About z, and about x.
-            let to_x = quarter_turn();
-            steps.push(Step::Unknown(Variable::Rotation));
-            steps.push(Step::Constant(to_x.clone()));
-            steps.push(Step::Unknown(Variable::Rotation));
-            steps.push(Step::Constant(to_x.inverse()));
-        }
-        JointKind::Revolute | JointKind::Helical => steps.push(Step::Unknown(Variable::Rotation)),
     }
 }
 

@@ -6,7 +6,7 @@ use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::entry::{Case, Entry, Input, InputValue};
 use crate::error::Result;
 use crate::exact::linkage::is_square;
-use crate::kinematics::chain::{Chain, Geometry, JointKind, ScrewJoint};
+use crate::kinematics::chain::{Chain, Geometry, ScrewJoint};
 use crate::kinematics::closed_loop::Variable;
 use crate::mechanism::{FullMode, Mechanism};
 use rug::{Integer, Rational};
@@ -87,9 +87,7 @@ pub(super) fn is_exact(chain: &Chain) -> bool {
             let has_frame = |joint: &ScrewJoint| {
                 is_square(&joint.axis.iter().map(|x| Rational::from(x.rational().square_ref())).sum())
             };
-            let needs_none = |joint: &ScrewJoint| {
-                matches!(joint.kind, JointKind::Revolute | JointKind::Prismatic | JointKind::Cylindrical)
-            };
+            let needs_none = |joint: &ScrewJoint| joint.kind.is_plain();
             home.defect == 0.0
                 && joints.iter().flat_map(|joint| joint.axis.iter().chain(&joint.point)).all(Number::is_exact)
                 && (joints.iter().all(has_frame) || joints.iter().all(needs_none))

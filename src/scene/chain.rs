@@ -25,7 +25,7 @@ pub(super) struct ChainPoser {
 impl ChainPoser {
     fn of(chain: &Chain, is_loop: bool) -> Option<Self> {
         let kinds = chain.joint_kinds();
-        if kinds.is_empty() || kinds.contains(&JointKind::Helical) {
+        if kinds.is_empty() || kinds.iter().any(|kind| kind.row().has_pitch) {
             return None;
         }
         let (_, constants) = chain.unknowns_and_constants::<f64>()?;

@@ -2,6 +2,7 @@
 
 use super::tracks::{Kind, Track, list, tracks};
 use crate::algebra::sort;
+use crate::kinematics::joint::{JointKind, Variable};
 use crate::report::picture::escaped;
 use crate::scene::{Point, Pose, apply};
 use serde_json::Value;
@@ -179,9 +180,9 @@ impl Drawing {
     /// A joint as a drum along its axis, or as a spherical joint.
     fn joint(&mut self, part: &Value, pose: &Pose) {
         let (Some(at), Some(axis)) = (point(&part["at"]), point(&part["axis"])) else { return };
-        let half = match part["type"].as_str() {
-            Some("S") => 0.0,
-            Some("C" | "P") => 0.036,
+        let half = match part["type"].as_str().and_then(JointKind::from_letter) {
+            Some(JointKind::Spherical) => 0.0,
+            Some(kind) if kind.variables().contains(&Variable::Translation) => 0.036,
             _ => 0.022,
         } * self.size;
         let end = |sign: f64| apply(pose, &std::array::from_fn(|k| at[k] + sign * half * axis[k]));

@@ -6,8 +6,9 @@ use crate::algebra::ring::{Ring, exact_cos_sin};
 use crate::algebra::trigonometric::{Pair, Trigonometric};
 use crate::catalogue::entry::{Case, Input, InputValue};
 use crate::error::{Error, Result};
-use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind};
+use crate::kinematics::chain::{Chain, Geometry, Joint};
 use crate::kinematics::closed_loop::{Parameter, Parameters};
+use crate::kinematics::joint::DhConstant;
 use crate::kinematics::motion::Motion;
 use rug::Rational;
 
@@ -160,22 +161,16 @@ pub(super) fn all(joints: &[Joint], input: Option<&Input>) -> Vec<Entry> {
             list.push((Some((at, parameter)), name, letters.to_vec(), Value::Angle(value.clone())));
         };
         angle(Parameter::Twist, format!("alpha{n}"), [format!("ca{n}"), format!("sa{n}")], &joint.alpha);
-        match joint.kind {
-            JointKind::Prismatic => {
-                angle(Parameter::Angle, format!("theta{n}"), [format!("c{n}"), format!("s{n}")], &joint.theta0);
-            }
-            JointKind::Spherical | JointKind::Universal => {}
-            JointKind::Revolute | JointKind::Cylindrical | JointKind::Helical => {
-                let letters = [format!("c0_{n}"), format!("s0_{n}")];
-                angle(Parameter::Angle, format!("theta0_{n}"), letters, &joint.theta0);
-            }
+        let offset = |constant| if constant == DhConstant::Offset { "0_" } else { "" };
+        if joint.kind.row().theta != DhConstant::Absent {
+            let n = format!("{}{n}", offset(joint.kind.row().theta));
+            angle(Parameter::Angle, format!("theta{n}"), [format!("c{n}"), format!("s{n}")], &joint.theta0);
         }
         let mut length = |parameter, name: String, value: &Number| {
             list.push((Some((at, parameter)), name.clone(), vec![name], Value::Length(value.clone())));
         };
         length(Parameter::Length, format!("a{n}"), &joint.a);
-        let offset = matches!(joint.kind, JointKind::Prismatic | JointKind::Cylindrical);
-        length(Parameter::Offset, format!("{}{n}", if offset { "d0_" } else { "d" }), &joint.d);
+        length(Parameter::Offset, format!("d{}{n}", offset(joint.kind.row().d)), &joint.d);
     }
     if let Some(input) = input {
         let n = input.joint;

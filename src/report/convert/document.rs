@@ -2,7 +2,8 @@
 
 use crate::algebra::number::{Angle, HalfTangent, Number};
 use crate::catalogue::entry::Entry;
-use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement, ScrewJoint};
+use crate::kinematics::chain::{Chain, Geometry, Joint, Placement, ScrewJoint};
+use crate::kinematics::joint::DhConstant;
 use rug::Rational;
 use serde_json::{Map, Value, json};
 use std::f64::consts::PI;
@@ -60,24 +61,15 @@ fn joint(joint: &Joint) -> Map<String, Value> {
     fields.insert("a".into(), text_of(&number(&joint.a)));
     insert_angle(&mut fields, "alpha", &joint.alpha);
     let is_zero = *joint.d.rational() == 0;
-    match joint.kind {
-        JointKind::Prismatic => {
-            insert_angle(&mut fields, "theta", &joint.theta0);
-            if !is_zero {
-                fields.insert("d0".into(), text_of(&number(&joint.d)));
-            }
-        }
-        JointKind::Cylindrical if !is_zero => {
-            fields.insert("d0".into(), text_of(&number(&joint.d)));
-        }
-        JointKind::Cylindrical => {}
-        _ => {
-            fields.insert("d".into(), text_of(&number(&joint.d)));
-        }
+    let (d, theta) = (joint.kind.row().d, joint.kind.row().theta);
+    if theta == DhConstant::Stated {
+        insert_angle(&mut fields, "theta", &joint.theta0);
     }
-    let takes_theta = matches!(joint.kind, JointKind::Revolute | JointKind::Cylindrical | JointKind::Helical);
-    if takes_theta && joint.theta0 != Angle::zero() {
-        insert_angle(&mut fields, "theta0", &joint.theta0);
+    if let Some(key) = d.key_of_d().filter(|_| d != DhConstant::Offset || !is_zero) {
+        fields.insert(key.into(), text_of(&number(&joint.d)));
+    }
+    if let Some([key, _]) = theta.keys_of_theta().filter(|_| theta != DhConstant::Stated && joint.theta0 != Angle::zero()) {
+        insert_angle(&mut fields, key, &joint.theta0);
     }
     if let Some(pitch) = &joint.pitch {
         fields.insert("pitch".into(), text_of(&number(pitch)));
@@ -91,7 +83,7 @@ fn screw(joint: &ScrewJoint) -> Map<String, Value> {
     let mut fields = Map::new();
     fields.insert("type".into(), json!(joint.kind.letter()));
     fields.insert("axis".into(), vector(&joint.axis));
-    if joint.kind != JointKind::Prismatic {
+    if !joint.kind.only_translates() {
         fields.insert("point".into(), vector(&joint.point));
     }
     if let Some(pitch) = &joint.pitch {

@@ -6,7 +6,7 @@ mod urdf;
 
 use crate::catalogue::entry::{Design, Entry};
 use crate::error::{Error, Result};
-use crate::kinematics::chain::{Chain, Geometry, JointKind, Placement};
+use crate::kinematics::chain::{Chain, Geometry, Placement};
 
 /// The formats that are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,7 +57,7 @@ fn table(chain: &Chain) -> Result<String> {
     }
     let mut text = "type,a,alpha,d,theta0\n".to_owned();
     for joint in joints {
-        if !matches!(joint.kind, JointKind::Revolute | JointKind::Prismatic | JointKind::Cylindrical) {
+        if !joint.kind.is_plain() {
             return Err(Error::Unsupported(format!("a DH table with a joint {}", joint.kind.letter())));
         }
         let (a, d) = (document::number(&joint.a), document::number(&joint.d));

@@ -193,22 +193,17 @@ fn swept(options: &SweepOptions, entry: &Entry, chain: &Chain) -> Result<Swept, 
     let kind = kind.ok_or_else(|| {
         found(&format!("expected one from 1 to {}: the loop has {}", kinds.len(), Freedom::of(chain)))
     })?;
-    let variable = match (kind, letter) {
-        (JointKind::Revolute | JointKind::Cylindrical, "" | "q") => Variable::Rotation,
-        (JointKind::Prismatic | JointKind::Cylindrical, _) => Variable::Translation,
-        (JointKind::Revolute, _) => {
-            let freedom = Freedom::of(chain);
-            return Err(found(&format!(
-                "which turns and has no distance; expected q before its number: the loop has {freedom}"
-            )));
-        }
-        (JointKind::Helical | JointKind::Universal | JointKind::Spherical, _) => {
-            return Err(found(&format!(
-                "which is {kind:?}; expected a joint R, P or C: the loop has {}",
-                Freedom::of(chain)
-            )));
-        }
-    };
+    let freedom = || Freedom::of(chain);
+    if !kind.is_plain() {
+        let plain = JointKind::letters(JointKind::is_plain, "or");
+        return Err(found(&format!("which is {kind:?}; expected a joint {plain}: the loop has {}", freedom())));
+    }
+    // A joint that only slides has no other variable that could be meant.
+    let variable = if letter == "d" || kind.only_translates() { Variable::Translation } else { Variable::Rotation };
+    if !kind.takes(variable) {
+        let message = "which turns and has no distance; expected q before its number";
+        return Err(found(&format!("{message}: the loop has {}", freedom())));
+    }
     Ok(Swept { joint, variable })
 }
 

@@ -121,19 +121,16 @@ fn given(chain: &Chain, joint: &str, value: &str, reading: &Reading) -> Result<C
         Error::Invalid(format!("found --input {joint}={value}, expected the number of a joint before `=`"))
     })?;
     let kinds = chain.joint_kinds();
-    let is_length = match joint.checked_sub(1).and_then(|index| kinds.get(index)) {
-        Some(JointKind::Revolute | JointKind::Cylindrical | JointKind::Helical) => false,
-        Some(JointKind::Prismatic) => true,
-        kind @ (None | Some(JointKind::Universal | JointKind::Spherical)) => {
-            let count = kinds.len();
-            let expected =
-                if kind.is_some() { "a joint R, P or C".to_owned() } else { format!("one from 1 to {count}") };
-            return Err(Error::Invalid(format!(
-                "found joint {joint} in --input, expected {expected}: the loop has {}",
-                Freedom::of(chain)
-            )));
-        }
+    let kind = joint.checked_sub(1).and_then(|index| kinds.get(index));
+    let Some(kind) = kind.filter(|kind| kind.has_one_axis()) else {
+        let plain = || format!("a joint {}", JointKind::letters(JointKind::is_plain, "or"));
+        let expected = kind.map_or_else(|| format!("one from 1 to {}", kinds.len()), |_| plain());
+        return Err(Error::Invalid(format!(
+            "found joint {joint} in --input, expected {expected}: the loop has {}",
+            Freedom::of(chain)
+        )));
     };
+    let is_length = kind.only_translates();
     let value = if is_length {
         InputValue::Distance(Number::parse(value, Quantity::Length, reading)?)
     } else {
