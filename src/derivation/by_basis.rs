@@ -4,7 +4,6 @@
 //! unknowns at all solutions are the roots of a characteristic polynomial. Where these roots are simple every real one belongs to one
 //! real solution, and every real solution to one of them.
 
-use super::equation::primitive;
 use super::interpolation::{Family, Source, Values, Watch};
 use crate::algebra::groebner::{Basis, Equation, FiniteRing};
 use crate::algebra::int::Int;
@@ -73,13 +72,5 @@ pub fn relation_by_bases(
     let (_, form, degree) = seen.max_by_key(|(distinct, ..)| *distinct).filter(|(_, _, degree)| *degree > 0).ok_or_else(none)?;
     let source = Forms { at, form, degree };
     let family = Family::new(&source, watch, Values::Small, vec![name.to_owned()], degree + 1);
-    let interpolated = family.interpolated()?;
-    let exponent = |power: usize| u32::try_from(power).unwrap_or(u32::MAX);
-    let terms = interpolated.terms().map(|(power, own, c)| (vec![own[0], exponent(power)], c.clone()));
-    let found = primitive(&Polynomial::from_terms(terms));
-    family.compare(&found, 0, |coefficients| {
-        let terms = coefficients.iter().enumerate().map(|(power, c)| (vec![0, exponent(power)], Rational::from(c)));
-        Polynomial::from_terms(terms)
-    })?;
-    Ok(found.primitive().0)
+    family.relation()
 }

@@ -6,6 +6,7 @@
 
 use super::equation::primitive;
 use crate::algebra::drawn;
+use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::projective::Shape;
 use crate::algebra::residues::ManyResidues;
@@ -331,6 +332,22 @@ impl<'s, S: Source> Family<'s, S> {
             next += 1;
         }
         Some(found)
+    }
+
+    /// Returns the polynomial in the one symbol (variable 0) and the unknown (variable 1), compared at values drawn at random.
+    ///
+    /// # Errors
+    /// As [`Self::interpolated`] and [`Self::compare`].
+    pub fn relation(&self) -> Result<Polynomial<Int>> {
+        let interpolated = self.interpolated()?;
+        let exponent = |power: usize| u32::try_from(power).unwrap_or(u32::MAX);
+        let terms = interpolated.terms().map(|(power, own, c)| (vec![own[0], exponent(power)], c.clone()));
+        let found = primitive(&Polynomial::from_terms(terms));
+        self.compare(&found, 0, |coefficients| {
+            let terms = coefficients.iter().enumerate().map(|(power, c)| (vec![0, exponent(power)], Rational::from(c)));
+            Polynomial::from_terms(terms)
+        })?;
+        Ok(found.primitive().0)
     }
 
     /// Compares a polynomial with those at values drawn at random. Its symbols are the variables from `first`; `polynomial` makes one

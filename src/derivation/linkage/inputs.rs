@@ -3,7 +3,6 @@
 use super::closure::derive_linkage;
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
-use crate::derivation::equation::primitive;
 use crate::derivation::interpolation::{Family, Source, Values, Watch};
 use crate::error::{Error, Result};
 use crate::kinematics::linkage::{Given, Linkage};
@@ -45,15 +44,7 @@ pub fn relation_by_values(
     let source = Closures { linkage, given, place, body, degree };
     let name = given[place].joint().map_or_else(String::new, |joint| linkage.joints[joint].name.clone());
     let family = Family::new(&source, watch, Values::Small, vec![name], degree + 1);
-    let interpolated = family.interpolated()?;
-    let exponent = |power: usize| u32::try_from(power).unwrap_or(u32::MAX);
-    let terms = interpolated.terms().map(|(power, own, c)| (vec![own[0], exponent(power)], c.clone()));
-    let found = primitive(&Polynomial::from_terms(terms));
-    family.compare(&found, 0, |coefficients| {
-        let terms = coefficients.iter().enumerate().map(|(power, c)| (vec![0, exponent(power)], Rational::from(c)));
-        Polynomial::from_terms(terms)
-    })?;
-    let integers = found.primitive().0;
+    let integers = family.relation()?;
     if integers.degree(1) as usize == degree { Ok(integers) } else { Err(half_turn()) }
 }
 
