@@ -69,6 +69,31 @@ fn bordered(jacobian: &[[f64; 7]; 6], border: &Point) -> [[f64; 7]; 7] {
     std::array::from_fn(|i| if i < 6 { jacobian[i] } else { *border })
 }
 
+/// The point to which Newton's method leads, and the length of its first step; `step` is the step from a point, and the largest entry of
+/// the inverse matrix that made it. `None` where that does not converge quickly. Near a singular position steps stop shrinking
+/// where the rounding of the closure, enlarged by the inverse matrix, hides the rest: that is as far as double precision goes.
+pub(super) fn onto(start: &Point, step: impl Fn(&Point) -> Option<(Point, f64)>) -> Option<(Point, f64)> {
+    const MOST_STEPS: usize = 8;
+    /// Rounding never excuses steps longer than this.
+    const COARSEST: f64 = 1e-8;
+    let (mut at, mut first, mut last) = (*start, None, f64::INFINITY);
+    for _ in 0..MOST_STEPS {
+        let (step, enlarged) = step(&at)?;
+        let size = step.iter().map(|x| x.abs()).fold(0.0, f64::max);
+        let longest = at.iter().map(|x| x.abs()).fold(1.0, f64::max);
+        let floor = (4.0 * f64::EPSILON * enlarged).clamp(1e-13, COARSEST) * longest;
+        if !size.is_finite() || size > last.max(10.0 * floor) {
+            return None;
+        }
+        at = std::array::from_fn(|k| at[k] - step[k]);
+        (first, last) = (first.or(Some(size)), size);
+        if size < floor {
+            break;
+        }
+    }
+    Some((at, first?))
+}
+
 impl Curve {
     /// Returns the curve of a loop whose input has this kind; `idle` marks the unknowns that stay at 0.
     #[must_use]
@@ -334,37 +359,18 @@ impl Curve {
     }
 
     /// The point of the curve with the same `border . q` as `start`, by Newton's method, and the length of the first step.
-    /// `None` where that does not converge quickly. Near a singular position steps stop shrinking where the rounding of the
-    /// closure, enlarged by the inverse matrix, hides the rest: that is as far as double precision goes.
+    /// `None` where that does not converge quickly.
     #[must_use]
     pub fn corrected(&self, start: &Point, border: &Point) -> Option<(Point, f64)> {
-        const MOST_STEPS: usize = 8;
-        /// Rounding never excuses steps longer than this.
-        const COARSEST: f64 = 1e-8;
-        let mut at = *start;
-        let mut steps: Vec<f64> = Vec::with_capacity(MOST_STEPS);
-        for _ in 0..MOST_STEPS {
-            let here = self.here(&at);
+        let (at, first) = onto(start, |at| {
+            let here = self.here(at);
             let right = std::array::from_fn(|i| if i < 6 { here.residual[i] } else { 0.0 });
             let inverted = self.inverted(&bordered(&here.jacobian, border))?;
-            let step = times(&inverted, &right);
-            let size = step.iter().map(|x| x.abs()).fold(0.0, f64::max);
-            let longest = at.iter().map(|x| x.abs()).fold(1.0, f64::max);
             let enlarged = inverted.iter().flatten().map(|x| x.abs()).fold(0.0, f64::max);
-            let floor = (4.0 * f64::EPSILON * enlarged).clamp(1e-13, COARSEST) * longest;
-            if !size.is_finite() || steps.last().is_some_and(|last| size > last.max(10.0 * floor)) {
-                return None;
-            }
-            for (x, d) in at.iter_mut().zip(step) {
-                *x -= d;
-            }
-            steps.push(size);
-            if size < floor {
-                break;
-            }
-        }
+            Some((times(&inverted, &right), enlarged))
+        })?;
         let closed = self.here(&at).residual.iter().map(|x| x.abs()).fold(0.0, f64::max);
         let reach = at.iter().map(|x| x.abs()).fold(1.0, f64::max);
-        (closed < self.closes_within * reach).then(|| (at, steps[0]))
+        (closed < self.closes_within * reach).then_some((at, first))
     }
 }

@@ -3,7 +3,7 @@
 //! `sum c_ij m_i(v) m_j(x) = 0` over the monomials (1, cos, sin) of an angle or (1, d, d^2) of a distance. It answers the same
 //! questions as the curve of a whole loop, in the plane of v and x.
 
-use super::curve::{INPUT, Point};
+use super::curve::{INPUT, Point, onto};
 use crate::algebra::ring::Ring;
 use crate::algebra::series::Series;
 use crate::kinematics::closed_loop::Variable;
@@ -136,29 +136,13 @@ impl PlaneCurve {
     /// As [`Curve::corrected`](super::curve::Curve::corrected).
     #[must_use]
     pub fn corrected(&self, start: &Point, border: &Point) -> Option<(Point, f64)> {
-        const MOST_STEPS: usize = 8;
-        /// Rounding never excuses steps longer than this.
-        const COARSEST: f64 = 1e-8;
-        let mut at = *start;
-        let mut steps: Vec<f64> = Vec::with_capacity(MOST_STEPS);
-        for _ in 0..MOST_STEPS {
-            let Here { value, slopes } = self.here(&at);
+        let (at, first) = onto(start, |at| {
+            let Here { value, slopes } = self.here(at);
             let ([v, x], enlarged) = solved([slopes, [border[UNKNOWN], border[INPUT]]], [value, 0.0])?;
-            let size = v.abs().max(x.abs());
-            let longest = at.iter().map(|x| x.abs()).fold(1.0, f64::max);
-            let floor = (4.0 * f64::EPSILON * enlarged).clamp(1e-13, COARSEST) * longest;
-            if !size.is_finite() || steps.last().is_some_and(|last| size > last.max(10.0 * floor)) {
-                return None;
-            }
-            at[UNKNOWN] -= v;
-            at[INPUT] -= x;
-            steps.push(size);
-            if size < floor {
-                break;
-            }
-        }
+            Some((point(v, x), enlarged))
+        })?;
         let reach = at.iter().map(|x| x.abs()).fold(1.0, f64::max);
-        (self.here(&at).value.abs() < 1e-11 * reach * reach).then(|| (at, steps[0]))
+        (self.here(&at).value.abs() < 1e-11 * reach * reach).then_some((at, first))
     }
 }
 

@@ -11,9 +11,7 @@ const TURN: f64 = 2.399_963_229_728_653;
 
 /// The N roots of a polynomial of degree N given by its value and slope at a point, by the method of Ehrlich and Aberth:
 /// Newton's method, each root repelled by the others. Multiple roots come near and not further.
-///
-/// # Source
-/// O. Aberth 1973, Iteration methods for finding all zeros of a polynomial simultaneously, Mathematics of Computation 27.
+/// \[Aberth1973\]
 #[must_use]
 pub fn roots<const N: usize>(polynomial: impl Fn(Complex<f64>) -> (Complex<f64>, Complex<f64>)) -> [Complex<f64>; N] {
     // Evenly on the sphere of all complex numbers and infinity.
