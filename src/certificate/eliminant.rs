@@ -90,8 +90,7 @@ fn solutions_of_loop(
     if is_angle && minor.degree() != Some(DEGREE) {
         return no("an angle of pi is a root");
     }
-    let circle = Univariate::new(vec![Rational::from(1), Rational::new(), Rational::from(1)]);
-    let minor = if is_angle { minor.remove_factor(&circle).1 } else { minor };
+    let minor = if is_angle { minor.remove_factor(&Univariate::circle()).1 } else { minor };
     let Some(roots) = all_roots(&minor.square_free_part(), starts) else { return no("its roots are not told apart") };
     let Some(rows) = enclosed(&rows) else { return no("the numbers are too long") };
     let mut most = 0;

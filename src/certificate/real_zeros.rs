@@ -177,9 +177,8 @@ mod tests {
 
     /// The product of `x - root` and of `x^2 + 1`.
     fn with_roots(roots: &[(i32, i32)]) -> Vec<RealBall> {
-        let circle = Univariate::new([1, 0, 1].map(Rational::from).to_vec());
         let linear = |root: &(i32, i32)| Univariate::new(vec![-Rational::from(*root), Rational::from(1)]);
-        let product = roots.iter().fold(circle, |product, root| product.mul(&linear(root)));
+        let product = roots.iter().fold(Univariate::circle(), |product, root| product.mul(&linear(root)));
         product.coefficients().iter().map(|c| RealBall::from_rational(c).unwrap()).collect()
     }
 

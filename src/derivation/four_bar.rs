@@ -18,7 +18,7 @@ use rug::Rational;
 /// Returns the quality of a polynomial: the number of roots that may be solutions, then whether some coincide. Less is better.
 pub(super) fn quality<F: Field + Domain>(polynomial: &Univariate<F>) -> Option<(usize, bool)> {
     polynomial.degree()?;
-    let rest = polynomial.remove_factor(&circle()).1;
+    let rest = polynomial.remove_factor(&Univariate::circle()).1;
     let multiple = rest.gcd(&rest.derivative()).degree() > Some(0);
     Some((rest.degree().unwrap_or(0), multiple))
 }
@@ -107,7 +107,7 @@ fn eliminate_by(exact: &Exact, chosen: Option<(usize, Hidden)>) -> Option<Elimin
         }
         let polynomial = closure_polynomial(&equations, hidden, &origin);
         if !polynomial.is_zero() {
-            let rest = polynomial.remove_factor(&circle()).1;
+            let rest = polynomial.remove_factor(&Univariate::circle()).1;
             let lost = false_roots(&bar, &equations, hidden, &origin, &rest);
             let all = lost.imaginary.mul(&lost.parallel);
             let degree = 8 - all.degree().unwrap_or(0) - lost.parallel_at_pi;
@@ -119,11 +119,6 @@ fn eliminate_by(exact: &Exact, chosen: Option<(usize, Hidden)>) -> Option<Elimin
         }
     }
     Some(eliminated)
-}
-
-/// Returns `1 + x^2`.
-fn circle<F: Field>() -> Univariate<F> {
-    Univariate::new(vec![F::one(), F::zero(), F::one()])
 }
 
 /// Returns a factor of false roots, split into square-free ones, and the false roots at infinity.

@@ -83,7 +83,7 @@ impl Eliminant {
         let degree = coefficients.degree()?;
         let mut at_pi = 0;
         if let Meaning::HalfTangent { degree: full } = meaning {
-            let factor = Univariate::new([1, 0, 1].map(Integer::from).to_vec());
+            let factor = Univariate::circle();
             let mut multiplicity = 0;
             while let Some(quotient) = coefficients.quotient(&factor) {
                 (coefficients, multiplicity) = (quotient, multiplicity + 1);

@@ -73,6 +73,5 @@ pub fn common_roots<F: Field + Domain>(
 fn octic_of<F: Field + Domain>(form: &LinkForm<F, 4, 2>, base: usize, hidden: Hidden) -> Option<Univariate<F>> {
     let polynomial = octic::closure_polynomial(&FourBar::new(form, base)?.equations(), hidden, &offset());
     polynomial.degree()?;
-    let circle = Univariate::new(vec![F::one(), F::zero(), F::one()]);
-    Some(polynomial.remove_factor(&circle).1)
+    Some(polynomial.remove_factor(&Univariate::circle()).1)
 }

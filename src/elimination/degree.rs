@@ -87,8 +87,7 @@ pub fn closure_polynomial<F: Field + Domain>(
     let TurnedPencil { pencil, .. } = turned_pencil(closed, cut, hidden)?;
     let polynomial = by_interpolation(&pencil.coefficients);
     polynomial.degree()?;
-    let circle = Univariate::new(vec![F::one(), F::zero(), F::one()]);
-    let (spurious, cofactor) = polynomial.remove_factor(&circle);
+    let (spurious, cofactor) = polynomial.remove_factor(&Univariate::circle());
     Some(ClosurePolynomial { polynomial, spurious, cofactor })
 }
 

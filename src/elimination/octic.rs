@@ -154,14 +154,13 @@ fn bound_of<F: Field + Domain>(bar: &FourBar<'_, F>, equations: &Equations<F>, h
     let (f, g) = (by_hidden(&equations.f, hidden, origin), by_hidden(&equations.g, hidden, origin));
     let polynomial = eliminant(&f, &g);
     polynomial.degree()?;
-    let circle = Univariate::new(vec![F::one(), F::zero(), F::one()]);
-    let (spurious, mut rest) = polynomial.remove_factor(&circle);
+    let (spurious, mut rest) = polynomial.remove_factor(&Univariate::circle());
     // Common roots of A + i B of both rows: the other half tangent is i there, or -i.
     let pair = |x: &[Univariate<F>; 3], y: &[Univariate<F>; 3]| x[1].mul(&y[1]).add(&x[2].mul(&y[2]));
     let crossed = f[1].mul(&g[2]).sub(&f[2].mul(&g[1]));
     let mut lost = 2 * spurious;
     let infinite = rest.gcd(&pair(&f, &f)).gcd(&pair(&g, &g)).gcd(&pair(&f, &g)).gcd(&crossed);
-    let (_, infinite) = if infinite.is_zero() { (0, infinite) } else { infinite.remove_factor(&circle) };
+    let (_, infinite) = if infinite.is_zero() { (0, infinite) } else { infinite.remove_factor(&Univariate::circle()) };
     if infinite.degree() > Some(0) {
         lost += infinite.degree().unwrap_or(0);
         rest = rest.div_exact(&infinite);

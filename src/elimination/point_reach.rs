@@ -111,14 +111,13 @@ impl<F: Field> Reach<F> {
 #[must_use]
 pub fn count<F: Field + Domain>(closed: &ClosedLoop<F>, spherical: usize) -> Option<usize> {
     let reach = Reach::of(closed, spherical);
-    let circle = Univariate::new(vec![F::one(), F::zero(), F::one()]);
     match reach.equations.plan(0.0) {
         Plan::Together { hidden, other } => {
             let powers = powers(reach.equations.kinds[hidden], &offset());
             let polynomial = closure_polynomial(&reach.equations, hidden, &other);
             polynomial.degree()?;
             let rest = match reach.equations.kinds[hidden] {
-                Variable::Rotation => polynomial.remove_factor(&circle).1,
+                Variable::Rotation => polynomial.remove_factor(&Univariate::circle()).1,
                 Variable::Translation => polynomial,
             };
             if reach.variables[1] == Variable::Rotation {

@@ -159,8 +159,7 @@ pub fn false_roots<F: Field + Domain>(form: &LinkForm<F, 3, 3>, triangle: &Trian
     if roots.is_zero() {
         return none;
     }
-    let circle = Univariate::new(vec![F::one(), F::zero(), F::one()]);
-    let dependent = roots.remove_factor(&circle).1.part_with_roots_of(&determinant);
+    let dependent = roots.remove_factor(&Univariate::circle()).1.part_with_roots_of(&determinant);
     let closing = bridged.iter().fold(Univariate::zero(), |g: Univariate<F>, (n, _)| g.gcd(n));
     let factor = dependent.div_exact(&dependent.part_with_roots_of(&closing));
     let at_infinity = determinant.degree() < Some(full) && bridged.iter().any(|(n, full)| n.degree() == Some(*full));

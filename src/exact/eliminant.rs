@@ -186,7 +186,7 @@ fn polynomial(closed: &ClosedLoop<Rational>, way: &Way) -> Option<(Univariate<In
     let signed = in_unknown(way, determinant.coefficients());
     let mut polynomial = Univariate::new(Univariate::<Rational>::new(signed).primitive_integers());
     let at_pi = DEGREE - polynomial.degree()?;
-    let circle = Univariate::new([1, 0, 1].map(Integer::from).to_vec());
+    let circle = Univariate::circle();
     while let Some(quotient) = polynomial.quotient(&circle) {
         polynomial = quotient;
     }

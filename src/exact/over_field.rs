@@ -135,14 +135,10 @@ fn determinant(closed: &ClosedLoop<Residue>, way: &Way) -> Option<Polynomial> {
     Some(Univariate::new(in_unknown(way, determinant.coefficients())))
 }
 
-fn circle() -> Polynomial {
-    Univariate::new(vec![Residue::one(), Residue::zero(), Residue::one()])
-}
-
 /// The power of `1 + x^2` in a determinant, and the square-free factors of the rest, monic, with their orders.
 fn factors(determinant: &Polynomial) -> Option<(usize, Vec<(Polynomial, usize)>)> {
     determinant.degree()?;
-    let (power, rest) = determinant.remove_factor(&circle());
+    let (power, rest) = determinant.remove_factor(&Polynomial::circle());
     Some((power, rest.square_free_decomposition()))
 }
 
@@ -335,7 +331,7 @@ fn holds(prime: &Prime, way: &Way, known: &Known) -> Option<bool> {
         multiple.push((factor.iter().map(Residue::reduced).collect::<Option<Vec<_>>>()?, *order));
     }
     let divides = |(determinant, x): (&Polynomial, &Residue)| {
-        let mut divisor = (0..known.circle).fold(Univariate::one(), |product: Polynomial, _| product.mul(&circle()));
+        let mut divisor = (0..known.circle).fold(Univariate::one(), |product: Polynomial, _| product.mul(&Polynomial::circle()));
         for (factor, order) in &multiple {
             let own = Univariate::new(factor.iter().map(|c| c.eval(x)).collect());
             divisor = (0..*order).fold(divisor, |product, _| product.mul(&own));

@@ -79,9 +79,8 @@ pub(super) fn positions(chain: &Chain, layout: &Layout, case: &Case) -> Result<P
                 return Ok(Positions::Moving);
             }
             // The half-angle tangent i belongs to no angle; degrees that are missing in both are at the angle pi.
-            let circle = Univariate::new(vec![Rational::from(1), Rational::new(), Rational::from(1)]);
             let is_rotation = *second == Variable::Rotation;
-            let common = if is_rotation { common.remove_factor(&circle).1 } else { common };
+            let common = if is_rotation { common.remove_factor(&Univariate::circle()).1 } else { common };
             let mut roots = roots(&common, is_rotation);
             let longest = one.degree().max(two.degree()).unwrap_or(0);
             if is_rotation && longest < 2 {

@@ -12,11 +12,6 @@ pub struct CircleFraction {
     power: u32,
 }
 
-/// Returns `1 + s^2`.
-fn circle() -> Univariate<Rational> {
-    Univariate::new([1, 0, 1].map(Rational::from).to_vec())
-}
-
 /// Returns whether `1 + s^2` divides a polynomial: whether its value at the imaginary unit is zero.
 fn is_divisible(polynomial: &Univariate<Rational>) -> bool {
     let mut value = [Rational::new(), Rational::new()];
@@ -36,7 +31,7 @@ impl CircleFraction {
             return Self { numerator, power: 0 };
         }
         while power > 0 && is_divisible(&numerator) {
-            numerator = numerator.div_rem(&circle()).0;
+            numerator = numerator.div_rem(&Univariate::circle()).0;
             power -= 1;
         }
         Self { numerator, power }
@@ -70,7 +65,7 @@ impl CircleFraction {
     /// Returns the product with `(1 + s^2)^power`, for a power not below that of the denominator.
     #[must_use]
     pub fn over(&self, power: u32) -> Univariate<Rational> {
-        (self.power..power).fold(self.numerator.clone(), |product, _| product.mul(&circle()))
+        (self.power..power).fold(self.numerator.clone(), |product, _| product.mul(&Univariate::circle()))
     }
 }
 
@@ -114,7 +109,7 @@ impl Field for CircleFraction {
     fn inverse(&self) -> Option<Self> {
         let [c] = self.numerator.coefficients() else { return None };
         let inverse = Univariate::constant(c.clone().recip());
-        Some(Self::new((0..self.power).fold(inverse, |product, _| product.mul(&circle())), 0))
+        Some(Self::new((0..self.power).fold(inverse, |product, _| product.mul(&Univariate::circle())), 0))
     }
     fn pivot_size(&self) -> f64 {
         if self.is_zero() { 0.0 } else { 1.0 }

@@ -37,6 +37,12 @@ impl<R: Ring> Univariate<R> {
         Self::new(vec![c])
     }
 
+    /// Returns `1 + x^2`, whose roots are the half-angle tangents of no angle.
+    #[must_use]
+    pub fn circle() -> Self {
+        Self::new(vec![R::one(), R::zero(), R::one()])
+    }
+
     /// Returns the variable.
     #[must_use]
     pub fn x() -> Self {

@@ -200,7 +200,7 @@ fn compared(way: Way, unknown: usize, found: Found, own: Derivation) -> Result<B
     let common = eliminants.iter().skip(1).fold(eliminants[0].clone(), |gcd, p| gcd.gcd(p));
     let foreign = eliminants[0].quotient(&common).unwrap_or_else(Ring::one);
     divide(&foreign, "another mixture of the same equations does not have these roots");
-    let circle = Univariate::new([1, 0, 1].map(Integer::from).to_vec());
+    let circle = Univariate::circle();
     let mut rest = common;
     let mut circles = Univariate::new(vec![Integer::from(1)]);
     while let Some(quotient) = rest.quotient(&circle).filter(|_| polynomial.coefficients.quotient(&circle).is_none()) {
