@@ -25,4 +25,4 @@ pub use high_precision::{MOST_TRIES, by_ring};
 pub use mode::{Assembly, Hits, Mode, Roots, are_apart, distance, wrapped};
 pub use real_list::distinct_real;
 pub use solver::{Gap, Margin, Solver, Workspace};
-pub use spherical::{Proof, proof};
+pub use spherical::{Proof, proof, spherical_angles};

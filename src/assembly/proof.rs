@@ -20,7 +20,7 @@ pub(super) fn certificate_in_reach<S: Scalar>(
     }
     let mut shrunk = closed.clone();
     for constant in &mut shrunk.constants {
-        constant.translation = constant.translation.map(|x| x / unit);
+        *constant = constant.over(unit);
     }
     let unknowns: Six<S> = std::array::from_fn(|j| match closed.variables[j] {
         Variable::Rotation => unknowns[j],

@@ -17,7 +17,7 @@ use crate::elimination::cut::{Cut, Hidden};
 use crate::elimination::kind::Elimination;
 use crate::elimination::pencil::{before_second_link, bilinear};
 use crate::kinematics::closed_loop::{ClosedLoop, OpenLoop, Variable};
-use crate::kinematics::motion::Motion;
+use crate::kinematics::motion::{Motion, unit_near};
 use crate::kinematics::tolerance::Tolerance;
 use crate::solve::decoupled::Decoupled;
 use crate::solve::eigen::{EigenWorkspace, companion};
@@ -110,11 +110,6 @@ fn length(motion: &Motion<f64>) -> f64 {
     motion.translation.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// Returns the motion with lengths over a power of two.
-fn scaled(motion: &Motion<f64>, scale: f64) -> Motion<f64> {
-    Motion { translation: motion.translation.map(|x| x / scale), ..motion.clone() }
-}
-
 /// Memory reused from pose to pose: one per thread.
 #[derive(Default)]
 pub struct Workspace {
@@ -151,13 +146,8 @@ impl Solver {
         // its ends, else 1. It is a power of two, so that scaling is exact.
         let links = open.constants.iter().map(square).sum::<f64>() / 5.0;
         let mean = if links > 0.0 { links } else { square(&open.before_gap) + square(&open.after_gap) };
-        let scale = if mean > 0.0 { mean.sqrt().log2().round().exp2() } else { 1.0 };
-        let open = OpenLoop {
-            variables: open.variables,
-            constants: open.constants.each_ref().map(|m| scaled(m, scale)),
-            before_gap: scaled(&open.before_gap, scale),
-            after_gap: scaled(&open.after_gap, scale),
-        };
+        let scale = unit_near(mean.sqrt());
+        let open = open.over(scale);
         let closed = open.close(&Motion::identity());
         let mut prepared: Vec<PreparedCut> = Cut::ALL[..Cut::PREPARED]
             .iter()
@@ -249,7 +239,7 @@ impl Solver {
     /// Returns the closing constant: this motion between the two ends of the open loop.
     #[must_use]
     pub fn gap(&self, closing: &Motion<f64>) -> Gap {
-        let closing = scaled(closing, self.scale);
+        let closing = closing.over(self.scale);
         let ends = length(&self.open.before_gap) + length(&closing) + length(&self.open.after_gap);
         let last = self.open.before_gap.then_after(&closing).then_after(&self.open.after_gap);
         let rounding = 0.5 * f64::EPSILON * (GAP_TURN + GAP_SHIFT * ends);
@@ -260,7 +250,7 @@ impl Solver {
     /// Takes a closing constant (behind the last unknown) that was computed exactly and rounded once.
     #[must_use]
     pub fn exact_gap(&self, last: &Motion<f64>) -> Gap {
-        Gap { last: scaled(last, self.scale), rounding: 0.0, is_rough: false }
+        Gap { last: last.over(self.scale), rounding: 0.0, is_rough: false }
     }
 
     /// Returns the loop with this closing constant, and the power of two that is the unit of its lengths.

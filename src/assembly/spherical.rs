@@ -8,7 +8,7 @@ use super::search::{AS_IT_IS, Effort, Family, RootOutcome, Search};
 use crate::certify::{certificate, certificate_in_any_frame};
 use crate::elimination::point_reach::Reach;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
-use crate::kinematics::link_form::product as matrix_product;
+use crate::kinematics::link_form::{product as matrix_product, transposed};
 use crate::kinematics::motion::Motion;
 use crate::solve::dense;
 use crate::solve::newton::{Six, closure, coordinates, turn};
@@ -38,7 +38,7 @@ impl Search<'_> {
         }
         let behind = lifted::<S>(&self.closed.constants[(spherical + 2) % 6]);
         let inverse = matrix_product(&behind.rotation, &rest.rotation);
-        let rotation: Rotation<S> = std::array::from_fn(|i| std::array::from_fn(|j| inverse[j][i]));
+        let rotation = transposed(&inverse);
         let mut start: Six<S> = [S::zero(); 6];
         for (k, (variable, (first, second))) in others.iter().enumerate() {
             start[(spherical + 3 + k) % 6] = match variable {
@@ -137,11 +137,6 @@ fn place<S: Copy>(unknowns: &mut Six<S>, spherical: usize, angles: [S; 3]) {
     }
 }
 
-/// Returns the inverse of a rotation.
-pub(super) fn transposed<S: Scalar>(r: &Rotation<S>) -> Rotation<S> {
-    std::array::from_fn(|i| std::array::from_fn(|j| r[j][i]))
-}
-
 /// Returns a rotation by a right angle about y.
 pub(super) fn quarter() -> Rotation<f64> {
     [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]
@@ -161,7 +156,8 @@ pub(super) fn spherical_rotation<S: Scalar>(angles: [S; 3]) -> Rotation<S> {
 
 /// Returns the three angles of a spherical joint, and the sine of the second one. Where that is near 0 the other two are
 /// dependent, and where it is 0 the third one is set to 0.
-pub(super) fn spherical_angles<S: Scalar>(r: &Rotation<S>) -> ([S; 3], f64) {
+#[must_use]
+pub fn spherical_angles<S: Scalar>(r: &Rotation<S>) -> ([S; 3], f64) {
     let cos = r[2][2];
     // The larger of two expressions for the square of the sine keeps its digits.
     let square = r[0][2].mul(&r[0][2]).add(&r[1][2].mul(&r[1][2]));

@@ -4,11 +4,11 @@ use super::limits;
 use super::mode::{Assembly, Roots};
 use super::search::{AS_IT_IS, Effort, Search};
 use super::solver::Workspace;
-use super::spherical::{lifted, quarter, spherical_angles, spherical_rotation, transposed};
+use super::spherical::{lifted, quarter, spherical_angles, spherical_rotation};
 use crate::elimination::spherical_pair::equation;
 use crate::kinematics::closed_loop::{ClosedLoop, SsDyad, Variable};
-use crate::kinematics::link_form::product;
-use crate::kinematics::motion::{Motion, Vector, cross, dot};
+use crate::kinematics::link_form::{product, transposed};
+use crate::kinematics::motion::{Motion, Vector, cross, dot, unit_near};
 use crate::solve::newton::{Six, turn};
 use crate::solve::scalar::Scalar;
 use crate::solve::separated::{pair, zeros};
@@ -57,9 +57,8 @@ pub fn solve(
 fn scaled(ss_dyad: &SsDyad<f64>) -> (f64, SsDyad<f64>) {
     let links = [&ss_dyad.link, &ss_dyad.before, &ss_dyad.behind];
     let mean = links.map(|motion| dot(&motion.translation, &motion.translation)).iter().sum::<f64>() / 3.0;
-    let scale = if mean > 0.0 { mean.sqrt().log2().round().exp2() } else { 1.0 };
-    let [link, before, behind] =
-        links.map(|motion| Motion { translation: motion.translation.map(|x| x / scale), ..motion.clone() });
+    let scale = unit_near(mean.sqrt());
+    let [link, before, behind] = links.map(|motion| motion.over(scale));
     (scale, SsDyad { link, before, behind, ..ss_dyad.clone() })
 }
 

@@ -8,7 +8,7 @@ use crate::kinematics::chain::{Chain, Geometry, ScrewJoint};
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::dual_quaternion::DualQuaternion;
 use crate::kinematics::freedom::Freedom;
-use crate::kinematics::motion::{Motion, cross, dot};
+use crate::kinematics::motion::{Motion, cross, dot, unit_near};
 use rug::{Float, Integer, Rational};
 
 /// Study's parameters `x0..x3, y0..y3` of a motion up to a factor.
@@ -122,8 +122,7 @@ impl Linkage<Rational> {
         };
         let squares: f64 = self.links.iter().filter_map(length).sum();
         let mean = (squares / self.links.len().max(1) as f64).sqrt();
-        let unit = if mean.is_normal() { mean.log2().round().exp2() } else { 1.0 };
-        Rational::from_f64(unit).unwrap_or_else(|| Rational::from(1))
+        Rational::from_f64(unit_near(mean)).unwrap_or_else(|| Rational::from(1))
     }
 
     /// Returns the same loop with a rotation in front of every spherical joint and its inverse behind. Other angles then describe

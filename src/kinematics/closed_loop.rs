@@ -10,7 +10,7 @@ use super::freedom::Freedom;
 use super::idle::Idle;
 use super::joint::Axis;
 pub use super::joint::Variable;
-use super::motion::Motion;
+use super::motion::{Motion, unit_near};
 use crate::algebra::enclosure::Enclosure;
 use crate::algebra::number::{Angle, Number};
 use crate::algebra::ring::Ring;
@@ -176,6 +176,19 @@ impl<R: Ring> ClosedLoop<R> {
             ..motion.clone()
         };
         Self { variables: self.variables, constants: self.constants.each_ref().map(scaled) }
+    }
+}
+
+impl OpenLoop<f64> {
+    /// Returns the loop with all lengths over a unit.
+    #[must_use]
+    pub fn over(&self, unit: f64) -> Self {
+        Self {
+            variables: self.variables,
+            constants: self.constants.each_ref().map(|motion| motion.over(unit)),
+            before_gap: self.before_gap.over(unit),
+            after_gap: self.after_gap.over(unit),
+        }
     }
 }
 
@@ -461,8 +474,7 @@ impl Chain {
             Geometry::Screws { joints, .. } => joints.iter().map(|j| square(&j.point.each_ref())).collect(),
         };
         let mean = (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt();
-        let unit = if mean.is_normal() { mean.log2().round().exp2() } else { 1.0 };
-        Rational::from_f64(unit).unwrap_or_else(|| Rational::from(1))
+        Rational::from_f64(unit_near(mean)).unwrap_or_else(|| Rational::from(1))
     }
 
     /// Returns the loop of a chain with two spherical joints, whose locked variable has this motion.

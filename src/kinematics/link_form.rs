@@ -167,10 +167,15 @@ pub fn turned<R: Ring>(matrix: &[[R; 3]; 3], (cos, sin): &(R, R)) -> [[R; 3]; 3]
     })
 }
 
+/// The transposed matrix, of a rotation its inverse.
+#[must_use]
+pub fn transposed<R: Clone>(matrix: &[[R; 3]; 3]) -> [[R; 3]; 3] {
+    std::array::from_fn(|i| std::array::from_fn(|j| matrix[j][i].clone()))
+}
+
 /// The product of two matrices.
 #[must_use]
 pub fn product<R: Ring>(a: &[[R; 3]; 3], b: &[[R; 3]; 3]) -> [[R; 3]; 3] {
-    let column = |j: usize| -> Vector<R> { std::array::from_fn(|k| b[k][j].clone()) };
-    let columns: [Vector<R>; 3] = std::array::from_fn(column);
+    let columns = transposed(b);
     std::array::from_fn(|i| std::array::from_fn(|j| dot(&a[i], &columns[j])))
 }

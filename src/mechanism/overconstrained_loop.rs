@@ -10,7 +10,6 @@ use super::{FullMode, Solution};
 use crate::algebra::drawn::Drawn;
 use crate::algebra::long_float::LongFloat;
 use crate::algebra::number::{Angle, HalfTangent, Number, nearest_f64};
-use crate::algebra::ring::Ring;
 use crate::algebra::sort;
 use crate::assembly::{Assembly, Mode, Roots, Solver, Workspace, by_ring, proof, wrapped};
 use crate::catalogue::entry::{Case, Entry, Input, InputValue};
@@ -177,7 +176,7 @@ fn rungs(chain: &Chain, layout: &Layout) -> Result<Vec<Rung>> {
             if solver.is_out_of_reach() || solver.structural_rank() < 6 {
                 break;
             }
-            let open = scaled(&open, unit);
+            let open = open.over(unit);
             rungs.push(Rung { layout, solver, open, most: OnceLock::new(), counting: OnceLock::new() });
         }
     }
@@ -185,17 +184,6 @@ fn rungs(chain: &Chain, layout: &Layout) -> Result<Vec<Rung>> {
         return Err(dependent(chain));
     }
     Ok(rungs)
-}
-
-/// A loop with its lengths over a unit.
-fn scaled(open: &OpenLoop<f64>, unit: f64) -> OpenLoop<f64> {
-    let over = |motion: &Motion<f64>| Motion { translation: motion.translation.map(|x| x / unit), ..motion.clone() };
-    OpenLoop {
-        variables: open.variables,
-        constants: open.constants.each_ref().map(over),
-        before_gap: over(&open.before_gap),
-        after_gap: over(&open.after_gap),
-    }
 }
 
 impl OverconstrainedLoop {
@@ -426,8 +414,7 @@ impl OverconstrainedLoop {
         let filled = with_idle_rotations(&self.chain, layout).unwrap_or_else(|_| layout.with_idle(layout.missing(), 0));
         let unit = self.chain.unit().to_f64();
         let closing: Motion<f64> = closing_transformation(case)?;
-        let closing = Motion { translation: closing.translation.map(|x| x / unit), ..closing };
-        let closed = scaled(&self.chain.open_loop(&filled)?, unit).close(&closing);
+        let closed = self.chain.open_loop(&filled)?.over(unit).close(&closing.over(unit));
         let joints = filled.joint_variables();
         let units = closed.variables.map(|kind| if kind == Variable::Rotation { 1.0 } else { unit });
         let locked = Complex::from(locked_value(case));
@@ -549,13 +536,9 @@ impl OverconstrainedLoop {
         let filled = layout.with_idle(layout.missing(), 0);
         let over = LongFloat::from(1.0 / self.chain.unit().to_f64());
         let exact = self.chain.open_loop::<LongFloat>(&filled)?.close(&closing_transformation(case)?);
-        let constants = exact.constants.each_ref().map(|motion| {
-            let translation = motion.translation.map(|x| x.mul(&over));
-            Motion { translation, ..motion.clone() }
-        });
-        let modes = by_ring(&ClosedLoop { variables: exact.variables, constants }, plan);
+        let modes = by_ring(&exact.in_unit(&over), plan);
         let open: OpenLoop<f64> = self.chain.open_loop(&filled)?;
-        let setting = self.setting(&filled, &scaled(&open, self.chain.unit().to_f64()), case)?;
+        let setting = self.setting(&filled, &open.over(self.chain.unit().to_f64()), case)?;
         Ok(modes.iter().filter_map(|mode| setting.candidate(mode, &mode.unknowns, ZERO)).collect())
     }
 
@@ -563,7 +546,7 @@ impl OverconstrainedLoop {
     fn setting(&self, layout: &Layout, open: &OpenLoop<f64>, case: &Case) -> Result<Setting> {
         let unit = self.chain.unit().to_f64();
         let closing: Motion<f64> = closing_transformation(case)?;
-        let closed = open.close(&Motion { translation: closing.translation.map(|x| x / unit), ..closing });
+        let closed = open.close(&closing.over(unit));
         let units = closed.variables.map(|kind| if kind == Variable::Rotation { 1.0 } else { unit });
         let is_idle = layout.joint_variables().map(|joint| joint.is_none());
         let locked = Complex::from(locked_value(case));

@@ -30,7 +30,7 @@ use crate::kinematics::closed_loop::{
     ClosedLoop, SsDyad, Layout, Numbers, OpenSsDyad, OpenLoop, Variable, angle_motion, distance_motion,
 };
 use crate::kinematics::freedom::Freedom;
-use crate::kinematics::motion::Motion;
+use crate::kinematics::motion::{Motion, unit_near};
 use crate::kinematics::tolerance::Tolerance;
 use crate::solve::scalar::Extended;
 use crate::verdict::{Bound, Code, Proof, Status, Verdict, verdict};
@@ -706,9 +706,9 @@ fn exact_solution(case: &Case, verdict: Verdict, modes: Vec<FullMode>, prepare_u
 /// those of such lengths.
 fn in_unit(mut closed: ClosedLoop<f64>) -> (ClosedLoop<f64>, f64) {
     let square = closed.constants.iter().flat_map(|motion| motion.translation).map(|x| x * x).sum::<f64>() / 6.0;
-    let unit = if square > 0.0 && square.is_finite() { square.sqrt().log2().round().exp2() } else { 1.0 };
+    let unit = unit_near(square.sqrt());
     for motion in &mut closed.constants {
-        motion.translation = motion.translation.map(|x| x / unit);
+        *motion = motion.over(unit);
     }
     (closed, unit)
 }

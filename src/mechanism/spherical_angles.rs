@@ -6,7 +6,7 @@ use crate::algebra::ring::Ring;
 use crate::algebra::series::Series;
 use crate::assembly::ss_dyad::farthest_axis;
 use crate::kinematics::closed_loop::{OpenSsDyad, Variable};
-use crate::kinematics::link_form::product;
+use crate::kinematics::link_form::{product, transposed};
 use crate::kinematics::motion::{Motion, Vector, cross, dot};
 
 /// A number with its first and second Taylor coefficient.
@@ -39,10 +39,6 @@ fn angle(x: &Jet, y: &Jet) -> Jet {
     let [first, second, _] = turned.mul(&inverse(&x.mul(x).add(&y.mul(y)))).coefficients;
     let start = y.coefficients[0].atan2(x.coefficients[0]);
     Series { coefficients: [start, first, second / 2.0] }
-}
-
-fn transposed<S: Clone>(r: &Rotation<S>) -> Rotation<S> {
-    std::array::from_fn(|i| std::array::from_fn(|j| r[j][i].clone()))
 }
 
 fn cos_sin(angle: &Jet) -> (Jet, Jet) {

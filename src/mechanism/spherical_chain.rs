@@ -8,10 +8,12 @@
 use super::single_loop::closing_transformation;
 use crate::algebra::ring::{Domain, Ring};
 use crate::algebra::univariate::Univariate;
+use crate::assembly::spherical_angles;
 use crate::catalogue::entry::Case;
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::{Layout, Numbers, Variable};
+use crate::kinematics::link_form::transposed;
 use crate::kinematics::motion::{Motion, Vector};
 use crate::solve::scalar::Scalar;
 use num_complex::Complex;
@@ -113,18 +115,9 @@ pub(super) fn positions(chain: &Chain, layout: &Layout, case: &Case) -> Result<P
             motion = motion.zip(constant).map(|(motion, constant)| motion.then_after(&step).then_after(&constant));
         }
         let (Some(motion), Some(spherical)) = (motion, layout.spherical) else { return (q, multiplicity) };
-        // The rotation of the spherical joint is the inverse of the rest, its transpose.
-        let r = motion.rotation;
-        let cos = r[2][2];
-        let sin = (Complex::from(1.0) - cos * cos).sqrt();
-        if sin.norm() > 1e-8 {
-            q[spherical] = Value::angle_of(-r[2][1] / sin, r[2][0] / sin);
-            q[spherical + 1] = Value::angle_of(cos, sin);
-            q[spherical + 2] = Value::angle_of(r[1][2] / sin, r[0][2] / sin);
-        } else {
-            q[spherical] = Value::angle_of(r[0][0], r[0][1]);
-            q[spherical + 1] = Value::angle_of(cos, Complex::ZERO);
-        }
+        // The rotation of the spherical joint is the inverse of the rest.
+        let (angles, _) = spherical_angles(&transposed(&motion.rotation));
+        q[spherical..spherical + 3].copy_from_slice(&angles);
         (q, multiplicity)
     };
     let found: Vec<_> = found.into_iter().map(whole).collect();

@@ -8,7 +8,7 @@ use crate::algebra::ring::Ring;
 use crate::algebra::series::Series;
 use crate::algebra::sort;
 use crate::kinematics::closed_loop::{ClosedLoop, OpenLoop, Variable};
-use crate::kinematics::motion::{Motion, cross};
+use crate::kinematics::motion::{Motion, cross, unit_near};
 use nalgebra::SMatrix;
 
 /// Seven joint variables: the six unknowns in loop order, then the input. Lengths over the scale of the loop.
@@ -105,10 +105,9 @@ impl Curve {
         });
         let square = |m: &Motion<f64>| m.translation.iter().map(|x| x * x).sum::<f64>();
         let mean = (constants.iter().map(square).sum::<f64>() / 7.0).sqrt();
-        // A power of two: scaling costs no digit.
-        let scale = if mean > 0.0 { mean.log2().round().exp2() } else { 1.0 };
+        let scale = unit_near(mean);
         for constant in &mut constants {
-            constant.translation = constant.translation.map(|x| x / scale);
+            *constant = constant.over(scale);
         }
         let variables = std::array::from_fn(|j| if j < 6 { open.variables[j] } else { input });
         let idle = std::array::from_fn(|j| j < 6 && idle[j]);

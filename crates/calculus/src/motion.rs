@@ -139,6 +139,21 @@ impl<R: Ring> Motion<R> {
     }
 }
 
+impl Motion<f64> {
+    /// Returns the motion with lengths over a unit.
+    #[inline]
+    #[must_use]
+    pub fn over(&self, unit: f64) -> Self {
+        Self { translation: self.translation.map(|x| x / unit), ..self.clone() }
+    }
+}
+
+/// Returns the power of two nearest to a mean length, by which dividing costs no digit; 1 where there are no lengths.
+#[must_use]
+pub fn unit_near(mean: f64) -> f64 {
+    if mean.is_normal() { mean.log2().round().exp2() } else { 1.0 }
+}
+
 impl<R> Motion<R> {
     /// Returns the same motion over another ring; `None` if an entry has no image.
     pub fn map<S>(&self, image: impl Fn(&R) -> Option<S>) -> Option<Motion<S>> {

@@ -2,6 +2,7 @@
 
 use super::circle::Triangle;
 use crate::algebra::ring::{Field, Ring};
+use crate::kinematics::link_form::{product, transposed};
 use crate::kinematics::motion::{cross, dot};
 
 /// A vector, point or line of the projective plane of `h = (1, alpha, beta)`.
@@ -30,15 +31,6 @@ pub struct Eliminant<R> {
     pub opposite: [Three<R>; 3],
     /// The adjugate of `M_23`.
     adjugate: [Three<R>; 3],
-}
-
-fn transposed<R: Clone>(matrix: &[Three<R>; 3]) -> [Three<R>; 3] {
-    std::array::from_fn(|i| std::array::from_fn(|j| matrix[j][i].clone()))
-}
-
-fn product<R: Ring>(one: &[Three<R>; 3], two: &[Three<R>; 3]) -> [Three<R>; 3] {
-    let columns = transposed(two);
-    std::array::from_fn(|i| std::array::from_fn(|j| dot(&one[i], &columns[j])))
 }
 
 /// `matrix vector`

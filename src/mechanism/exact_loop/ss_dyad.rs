@@ -9,7 +9,7 @@ use crate::algebra::univariate::Univariate;
 use crate::assembly::ss_dyad::farthest_axis;
 use crate::elimination::spherical_pair::equation;
 use crate::kinematics::closed_loop::{SsDyad, Variable};
-use crate::kinematics::link_form::product;
+use crate::kinematics::link_form::{product, transposed};
 use crate::kinematics::motion::{Motion, Vector, cross, dot};
 use crate::mechanism::FullMode;
 use crate::verdict::{Code, Proof, Status, Verdict};
@@ -218,10 +218,6 @@ fn zero() -> Disc {
 /// Returns whether the square of a sine is 0 or negligible.
 fn is_nothing(square: &Disc) -> bool {
     square.at_most() < Float::with_val(64, 1) >> (2 * SAME)
-}
-
-fn transposed(r: &Rotation) -> Rotation {
-    std::array::from_fn(|i| std::array::from_fn(|j| r[j][i].clone()))
 }
 
 fn unit(v: &Vector<Disc>) -> Option<Vector<Disc>> {

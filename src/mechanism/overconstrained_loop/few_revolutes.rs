@@ -4,7 +4,7 @@
 //! the same angle in every position, the third column and the third row of `Rz(q1) A1 Rz(q2) A2 = I` give one cosine and
 //! sine each, rational in the data. Translations then have to bridge what is left, along known directions.
 
-use super::{Answer, OverconstrainedLoop, outcome, scaled};
+use super::{Answer, OverconstrainedLoop, outcome};
 use crate::algebra::number::nearest_f64;
 use crate::catalogue::entry::Case;
 use crate::error::Result;
@@ -75,8 +75,7 @@ impl OverconstrainedLoop {
         let q = filled.assemble(&unknowns.map(Complex::from), locked);
         let within = (!self.limits.is_empty()).then(|| within_limits(&q, &layout.variables, &self.limits));
         let closing: Motion<f64> = closing_transformation(case)?;
-        let closing = Motion { translation: closing.translation.map(|x| x / unit), ..closing };
-        let here = scaled(&self.chain.open_loop(&filled)?, unit).close(&closing);
+        let here = self.chain.open_loop(&filled)?.over(unit).close(&closing.over(unit));
         let over_unit = std::array::from_fn(|k| match here.variables[k] {
             Variable::Rotation => Complex::from(unknowns[k]),
             Variable::Translation => Complex::from(unknowns[k] / unit),
