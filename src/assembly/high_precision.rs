@@ -16,12 +16,11 @@ use crate::elimination::cut::{Cut, Hidden};
 use crate::elimination::degree::{TurnedPencil, turned_pencil};
 use crate::elimination::kind::Elimination;
 use crate::elimination::octic;
-use crate::elimination::opposite_axes::OppositeAxes;
-use crate::elimination::point_reach::Reach;
 use crate::elimination::rearranged::rearranged;
 use crate::elimination::separated::{self, Plan, Separated, powers};
 use crate::elimination::spherical_four_bar::FourBar;
 use crate::elimination::spherical_triangle::{Triangle, triangle};
+use crate::elimination::two_sided::{Known, TwoSided};
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::kinematics::link_form::{LinkForm, product, turned};
 use crate::kinematics::motion::Motion;
@@ -63,11 +62,14 @@ pub(super) fn solve_in_high_precision<R: Extended>(
         tries += 1;
         note(&candidates) || (tries == 1 && by_ring().is_some_and(|all| note(&all))) || tries >= most_tries
     };
-    match Elimination::of(exact.variables, spherical) {
-        Elimination::Centre(spherical) => _ = take(centre(exact, spherical).unwrap_or_default()),
-        Elimination::Triangle => _ = take(spherical_triangle(exact).unwrap_or_default()),
-        Elimination::FourBar => four_bars(exact, &mut take),
-        Elimination::Cut | Elimination::Planar => cuts(exact, &mut take),
+    let special = TwoSided::of(exact, spherical, R::PIVOT_ZERO).and_then(|way| two_sided(exact, way));
+    if !special.is_some_and(&mut take) {
+        match Elimination::of(exact.variables, spherical) {
+            Elimination::Centre(_) => {}
+            Elimination::Triangle => _ = take(spherical_triangle(exact).unwrap_or_default()),
+            Elimination::FourBar => four_bars(exact, &mut take),
+            Elimination::Cut | Elimination::Planar => cuts(exact, &mut take),
+        }
     }
     if tries == 0
         && let Some(all) = by_ring()
@@ -131,22 +133,6 @@ fn both_sides<R: Extended>(equations: &Separated<R>) -> Option<Vec<[[Complex<R>;
     Some(sides.collect())
 }
 
-/// Returns the rotations of a loop in link form, and its translations.
-fn in_link_form<R: Extended, const RHO: usize, const TAU: usize>(
-    form: &LinkForm<Complex<R>, RHO, TAU>,
-    rotations: &[(Complex<R>, Complex<R>); RHO],
-) -> Option<Pairs<R>> {
-    let values = form.slides_at(rotations).values?;
-    let mut pairs = [(Complex::zero(), Complex::zero()); 6];
-    for (&unknown, pair) in form.rotations.iter().zip(rotations) {
-        pairs[unknown] = *pair;
-    }
-    for (slide, value) in form.slides.iter().zip(values) {
-        pairs[slide.unknown].0 = value;
-    }
-    Some(pairs)
-}
-
 /// Returns the solutions of a loop with three rotations.
 fn spherical_triangle<R: Extended>(exact: &ClosedLoop<R>) -> Option<Vec<Pairs<R>>> {
     let (form, lifted) = (LinkForm::<_, 3, 3>::of(exact)?, LinkForm::of(&complex(exact))?);
@@ -157,7 +143,7 @@ fn spherical_triangle<R: Extended>(exact: &ClosedLoop<R>) -> Option<Vec<Pairs<R>
     let triangle = Triangle { dropped: real.dropped, equation: real.equation.map(Complex::from_real) };
     let candidates = upper_roots(&polynomial)?.into_iter().filter_map(|root| {
         let [_, cos, sin] = monomials(Variable::Rotation, &root)?;
-        in_link_form(&lifted, &triangle.rotations(&lifted, &(cos, sin))?)
+        lifted.unknowns_at(&triangle.rotations(&lifted, &(cos, sin))?)
     });
     Some(candidates.collect())
 }
@@ -167,16 +153,6 @@ fn four_bars<R: Extended>(exact: &ClosedLoop<R>, take: &mut impl FnMut(Vec<Pairs
     let (Some(form), Some(lifted)) = (LinkForm::<_, 4, 2>::of(exact), LinkForm::<_, 4, 2>::of(&complex(exact))) else {
         return;
     };
-    if let Some(axes) = OppositeAxes::of(&form, R::PIVOT_ZERO)
-        && let Some(sides) = both_sides(&axes.equations(&form))
-    {
-        let candidates = sides.iter().filter_map(|[[_, c, s], [_, c2, s2]]| {
-            in_link_form(&lifted, &axes.rotations(&lifted, &(*c, *s), &(*c2, *s2))?)
-        });
-        if take(candidates.collect()) {
-            return;
-        }
-    }
     let mut bases = [0, 1, 2, 3];
     let twist = |base: usize| form.twist(base + 2).0.to_f64();
     sort::by(&mut bases, |&a, &b| twist(b).total_cmp(&twist(a)));
@@ -200,7 +176,7 @@ fn four_bars<R: Extended>(exact: &ClosedLoop<R>, take: &mut impl FnMut(Vec<Pairs
                 let other = (minor(2, 0).mul(&inverse), minor(0, 1).mul(&inverse));
                 let known = (known[1], known[2]);
                 let (a, b) = if hidden == Hidden::First { (known, other) } else { (other, known) };
-                in_link_form(&lifted, &complex_bar.rotations(&a, &b))
+                lifted.unknowns_at(&complex_bar.rotations(&a, &b))
             });
             if take(candidates.collect()) {
                 return;
@@ -284,39 +260,34 @@ fn eigenvectors<R: Extended>(ring: &CoordinateRing<R>) -> Option<Vec<Pairs<R>>> 
     Some(candidates.collect())
 }
 
-/// Returns the candidates of a loop with a spherical joint: its centre, and the rotation that remains.
-fn centre<R: Extended>(exact: &ClosedLoop<R>, spherical: usize) -> Option<Vec<Pairs<R>>> {
+/// Returns the candidates by two equations with an unknown on either side.
+fn two_sided<R: Extended>(exact: &ClosedLoop<R>, way: TwoSided) -> Option<Vec<Pairs<R>>> {
     let lifted = complex(exact);
-    let (reach, complex_reach) = (Reach::of(exact, spherical), Reach::of(&lifted, spherical));
-    let sides = both_sides(&reach.equations)?;
-    let pair = |variable: Variable, m: &[Complex<R>; 3]| match variable {
-        Variable::Rotation => (m[1], m[2]),
-        Variable::Translation => (m[1], Complex::zero()),
+    let sides = both_sides(&way.equations(exact)?)?;
+    Some(sides.iter().filter_map(|sides| completed(&lifted, &way.known(&lifted, sides.each_ref())?)).collect())
+}
+
+/// Adds the three rotations of a spherical joint, if there is one, to the other unknowns.
+fn completed<R: Extended>(lifted: &ClosedLoop<Complex<R>>, known: &Known<Complex<R>>) -> Option<Pairs<R>> {
+    let mut pairs = known.map(|pair| pair.unwrap_or((Complex::zero(), Complex::zero())));
+    let Some(spherical) = (0..6).find(|k| known[*k].is_none() && known[(k + 5) % 6].is_some()) else {
+        return Some(pairs);
     };
-    let candidates = sides.iter().filter_map(|sides| {
-        let middle = complex_reach.middle(sides.each_ref())?;
-        let [first, second, third] = reach.variables;
-        let others = [(first, pair(first, &sides[1])), (second, middle), (third, pair(third, &sides[0]))];
-        let mut pairs = [(Complex::zero(), Complex::zero()); 6];
-        let constant = |k: usize| &lifted.constants[(spherical + k) % 6].rotation;
-        let mut rest = *constant(2);
-        for (k, (variable, pair)) in others.into_iter().enumerate() {
-            if variable == Variable::Rotation {
-                rest = turned(&rest, &pair);
-            }
-            rest = product(&rest, constant(3 + k));
-            pairs[(spherical + 3 + k) % 6] = pair;
+    let mut rest = lifted.constants[(spherical + 2) % 6].rotation;
+    for k in [3, 4, 5].map(|k| (spherical + k) % 6) {
+        if lifted.variables[k] == Variable::Rotation {
+            rest = turned(&rest, &pairs[k]);
         }
-        // Rz(a) Rx(b) Rz(c) is the inverse.
-        let r = |i: usize, j: usize| rest[j][i];
-        let sin = r(0, 2).mul(&r(0, 2)).add(&r(1, 2).mul(&r(1, 2))).root();
-        let inverse = sin.inverse()?;
-        pairs[spherical % 6] = (r(1, 2).neg().mul(&inverse), r(0, 2).mul(&inverse));
-        pairs[(spherical + 1) % 6] = (r(2, 2), sin);
-        pairs[(spherical + 2) % 6] = (r(2, 1).mul(&inverse), r(2, 0).mul(&inverse));
-        Some(pairs)
-    });
-    Some(candidates.collect())
+        rest = product(&rest, &lifted.constants[k].rotation);
+    }
+    // Rz(a) Rx(b) Rz(c) is the inverse.
+    let r = |i: usize, j: usize| rest[j][i];
+    let sin = r(0, 2).mul(&r(0, 2)).add(&r(1, 2).mul(&r(1, 2))).root();
+    let inverse = sin.inverse()?;
+    pairs[spherical] = (r(1, 2).neg().mul(&inverse), r(0, 2).mul(&inverse));
+    pairs[(spherical + 1) % 6] = (r(2, 2), sin);
+    pairs[(spherical + 2) % 6] = (r(2, 1).mul(&inverse), r(2, 0).mul(&inverse));
+    Some(pairs)
 }
 
 /// Returns the residual of unknowns rounded to f64, see [`Mode::residual`]. Computing it in f64 would add rounding errors.

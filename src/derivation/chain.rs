@@ -8,6 +8,7 @@ use crate::algebra::drawn::Drawn;
 use crate::algebra::univariate::Univariate;
 use crate::catalogue::entry::Case;
 use crate::elimination::kind::Elimination;
+use crate::elimination::two_sided::TwoSided;
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
@@ -45,6 +46,10 @@ pub(super) struct Exact {
 impl Exact {
     pub fn elimination(&self) -> Elimination {
         Elimination::of(self.closed.variables, self.spherical)
+    }
+
+    pub fn two_sided(&self) -> Option<TwoSided> {
+        TwoSided::of(&self.closed, self.spherical, 0.0)
     }
 }
 
@@ -91,10 +96,12 @@ pub(super) fn exact(chain: &Chain, case: &Case) -> Result<Exact> {
 
 /// Carries out the elimination that fits the unknowns.
 pub(super) fn eliminate(exact: &Exact) -> Result<Eliminated> {
+    let special = exact.two_sided().and_then(|way| two_sides::eliminate(exact, way));
     let eliminated = match exact.elimination() {
-        Elimination::Centre(spherical) => Some(two_sides::spherical(exact, spherical)),
+        _ if special.is_some() => special,
+        Elimination::Centre(_) => None,
         Elimination::Triangle => triangle::eliminate(exact),
-        Elimination::FourBar => two_sides::opposite_axes(exact).or_else(|| four_bar::eliminate(exact)),
+        Elimination::FourBar => four_bar::eliminate(exact),
         Elimination::Cut => Some(cuts::eliminate(exact)),
         Elimination::Planar => {
             let rotations = exact.closed.variables.iter().filter(|v| **v == Variable::Rotation).count();

@@ -7,38 +7,22 @@ use super::symbols::{Symbols, combination};
 use super::triangle::of_row;
 use crate::algebra::ring::Ring;
 use crate::algebra::univariate::Univariate;
-use crate::elimination::opposite_axes::OppositeAxes;
-use crate::elimination::point_reach::Reach;
 use crate::elimination::separated::{Plan, Separated, powers, quartic};
 use crate::elimination::spherical_pair;
+use crate::elimination::two_sided::TwoSided;
 use crate::kinematics::closed_loop::{SsDyad, Variable};
-use crate::kinematics::link_form::LinkForm;
 use rug::Rational;
 
-/// Derives loops with a spherical joint, whose centre is reached from both sides.
-pub(super) fn spherical(exact: &Exact, spherical: usize) -> Eliminated {
-    let reach = Reach::of(&exact.closed, spherical);
-    let [first, second, third] = [3, 4, 5].map(|k| (spherical + k) % 6);
-    let label = |k: usize| exact.symbols.label(k);
-    let centre = label(spherical).split('_').next().unwrap_or_default().to_owned();
-    let (names, how) = match reach.variables[1] {
-        Variable::Rotation => {
-            (["n.r", "r.r"], "have the same height along the axis and the same distance from a point of it")
-        }
-        Variable::Translation => (["x.r", "y.r"], "lie over the same point of a plane across the axis"),
-    };
-    let names = names.map(|name| format!("centre of spherical joint {centre}, axis {}, {name}", label(second)));
-    let mut steps = vec![format!(
-        "The centre of spherical joint {centre}, carried by joint {} on one side and by joint {} on the other, is brought together by \
-         joint {}: seen from there both places {how}.",
-        label(third),
-        label(first),
-        label(second)
-    )];
-    let mut eliminated = solve(exact, &reach.equations, [third, first], names);
-    steps.append(&mut eliminated.steps);
-    steps.push(format!("Joint {} and the rotation of the spherical joint follow rationally.", label(second)));
-    Eliminated { steps, ..eliminated }
+/// Derives loops with two equations in one unknown each; `None` if the polynomial vanishes, or another elimination is the better one.
+pub(super) fn eliminate(exact: &Exact, way: TwoSided) -> Option<Eliminated> {
+    let variables = exact.closed.variables;
+    let equations = way.serves(&exact.closed)?;
+    let words = way.words(variables, |k| exact.symbols.label(k));
+    let mut eliminated = solve(exact, &equations, way.unknowns(variables), words.names);
+    eliminated.polynomial.as_ref().filter(|(_, polynomial, _)| way.is_last() || !polynomial.is_zero())?;
+    eliminated.steps.insert(0, words.before);
+    eliminated.steps.push(words.after);
+    Some(eliminated)
 }
 
 /// Derives loops with two spherical joints, whose centres keep their distance.
@@ -70,37 +54,6 @@ pub(super) fn ss_dyad(symbols: &Symbols, labels: &[String], ss_dyad: &SsDyad<Rat
         removed: Vec::new(),
         per_root: 1,
     }
-}
-
-/// Returns whether the translations run along two opposite axes, and both equations are needed for either unknown.
-pub(super) fn is_opposite(exact: &Exact) -> bool {
-    let form: Option<LinkForm<Rational, 4, 2>> = LinkForm::of(&exact.closed);
-    let plan = |form: &LinkForm<_, 4, 2>| Some(OppositeAxes::of(form, 0.0)?.equations(form).plan(0.0));
-    matches!(form.as_ref().and_then(plan), Some(Plan::Together { .. }))
-}
-
-/// Derives loops with translations along two opposite axes; `None` for other translations, or if the polynomial vanishes.
-pub(super) fn opposite_axes(exact: &Exact) -> Option<Eliminated> {
-    let form: LinkForm<Rational, 4, 2> = LinkForm::of(&exact.closed)?;
-    let axes = OppositeAxes::of(&form, 0.0)?;
-    let rotation = |k: usize| form.rotations[(axes.first + k) % 4];
-    let label = |k: usize| exact.symbols.label(rotation(k));
-    let equations = axes.equations(&form);
-    if matches!(equations.plan(0.0), Plan::Apart { .. }) {
-        return None;
-    }
-    let names = ["n.n'", "n.(r x n')"].map(|name| format!("dual cosine {}-{} {name}", label(0), label(2)));
-    let mut steps = vec![format!(
-        "The translations run along the axes of joints {} and {}: angle and moment of these two lines are free of them and of \
-         both rotations about them.",
-        label(0),
-        label(2)
-    )];
-    let mut eliminated = solve(exact, &equations, [rotation(1), rotation(3)], names);
-    steps.append(&mut eliminated.steps);
-    steps.push("The rotations about both axes and the two translations follow rationally.".to_owned());
-    eliminated.polynomial.as_ref().filter(|(_, polynomial, _)| !polynomial.is_zero())?;
-    Some(Eliminated { steps, ..eliminated })
 }
 
 /// Solves the equations with these unknowns on their sides.

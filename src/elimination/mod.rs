@@ -28,3 +28,4 @@ pub mod spherical_four_bar;
 pub mod spherical_pair;
 pub mod spherical_triangle;
 pub mod triangle_platform;
+pub mod two_sided;

@@ -116,6 +116,20 @@ impl<R: Ring, const RHO: usize, const TAU: usize> LinkForm<R, RHO, TAU> {
 }
 
 impl<F: Field, const RHO: usize, const TAU: usize> LinkForm<F, RHO, TAU> {
+    /// All unknowns of the loop at these rotations: cosine and sine, or the distance and 0; `None` where translations are dependent.
+    #[must_use]
+    pub fn unknowns_at(&self, rotations: &[(F, F); RHO]) -> Option<[(F, F); 6]> {
+        let values = self.slides_at(rotations).values?;
+        let mut pairs = std::array::from_fn(|_| (F::zero(), F::zero()));
+        for (&unknown, pair) in self.rotations.iter().zip(rotations) {
+            pairs[unknown] = pair.clone();
+        }
+        for (slide, value) in self.slides.iter().zip(values) {
+            pairs[slide.unknown].0 = value;
+        }
+        Some(pairs)
+    }
+
     /// The translations at these cosines and sines of the rotations.
     ///
     /// # Panics

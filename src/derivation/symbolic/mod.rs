@@ -148,8 +148,8 @@ fn numeric(chain: &Chain, case: &Case) -> Result<(Symbols, Option<Numeric>)> {
     }
     let exact = exact(chain, case)?;
     let is_neighbour = || LinkForm::of(&exact.closed).is_some_and(|form| dual::opposite_link(&form).is_some());
-    let special = matches!(exact.elimination(), Elimination::Centre(_) | Elimination::Triangle)
-        || two_sides::is_opposite(&exact)
+    let special = exact.elimination() == Elimination::Triangle
+        || exact.two_sided().is_some_and(|way| way.serves(&exact.closed).is_some())
         || is_neighbour();
     if !special {
         return Err(size::too_large(chain, case, &exact));

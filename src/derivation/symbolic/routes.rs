@@ -13,11 +13,10 @@ use crate::derivation::chain::Eliminated;
 use crate::derivation::equation::primitive;
 use crate::derivation::symbols::Symbols;
 use crate::derivation::triangle::of_row;
-use crate::elimination::opposite_axes::OppositeAxes;
-use crate::elimination::point_reach::Reach;
 use crate::elimination::separated::{Plan, Separated, powers, quartic};
 use crate::elimination::spherical_pair;
 use crate::elimination::spherical_triangle::{triangle, triangle_without};
+use crate::elimination::two_sided::TwoSided;
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::{ClosedLoop, Layout, Variable};
@@ -85,21 +84,23 @@ pub(super) fn route(
         Numeric::Single(exact, eliminated) => (exact, eliminated),
     };
     let closed = symbolic_loop(chain, case, table)?;
+    let by_two_rows = |way: TwoSided| {
+        let (equations, numbers) = way.equations(&closed).zip(way.equations(&exact.closed)).ok_or_else(no_image)?;
+        two_rows(symbols, way.unknowns(closed.variables), &equations, &numbers.plan(0.0), eliminated)
+    };
     if let Some(spherical) = exact.spherical {
-        let equations = Reach::of(&closed, spherical).equations;
-        let plan = Reach::of(&exact.closed, spherical).equations.plan(0.0);
-        return two_rows(symbols, [5, 3].map(|k| (spherical + k) % 6), &equations, &plan, eliminated);
+        return by_two_rows(TwoSided::Centre(spherical));
     }
-    if let (Some(form), Some(numbers)) = (LinkForm::<_, 4, 2>::of(&closed), LinkForm::<_, 4, 2>::of(&exact.closed)) {
+    if let Some(form) = LinkForm::<_, 4, 2>::of(&closed) {
         if let Some(base) = opposite_link(&form) {
             return neighbours(exact, &form, base, symbols);
         }
         // With symbols a translation may leave the axis along which it runs in the file.
         let is_opposite = axes(&form).is_some_and(|[one, two]| one.abs_diff(two) == 2);
-        let opposite = OppositeAxes::of(&numbers, 0.0).filter(|_| is_opposite);
-        let Some(axes) = opposite else { return Err(too_large(chain, case, exact)) };
-        let unknowns = [1, 3].map(|k| form.rotations[(axes.first + k) % 4]);
-        return two_rows(symbols, unknowns, &axes.equations(&form), &axes.equations(&numbers).plan(0.0), eliminated);
+        return match exact.two_sided().filter(|_| is_opposite) {
+            Some(way @ TwoSided::OppositeAxes(_)) => by_two_rows(way),
+            _ => Err(too_large(chain, case, exact)),
+        };
     }
     let (form, numbers): (LinkForm<_, 3, 3>, LinkForm<_, 3, 3>) =
         LinkForm::of(&closed).zip(LinkForm::of(&exact.closed)).ok_or_else(no_image)?;
