@@ -190,24 +190,22 @@ fn cuts<R: Extended>(exact: &ClosedLoop<R>, take: &mut impl FnMut(Vec<Pairs<R>>)
     let as_it_is = (exact.clone(), [0, 1, 2, 3, 4, 5], false);
     let moved = rearranged(exact, R::PIVOT_ZERO).into_iter().map(|m| (m.closed, m.order, m.flipped));
     for (closed, order, flipped) in std::iter::once(as_it_is).chain(moved) {
-        for cut in Cut::ALL {
-            for hidden in [Hidden::First, Hidden::Second] {
-                let Some(candidates) = one_cut(&closed, cut, hidden) else { continue };
-                let candidates = candidates.into_iter().map(|of_cut| {
-                    let mut pairs = [(Complex::zero(), Complex::zero()); 6];
-                    for (j, (first, second)) in of_cut.into_iter().enumerate() {
-                        let index = cut.unknown_index(j);
-                        pairs[order[index]] = match closed.variables[index] {
-                            Variable::Rotation if cut.reversed => (first, second.neg()),
-                            Variable::Translation if cut.reversed != flipped => (first.neg(), second),
-                            _ => (first, second),
-                        };
-                    }
-                    pairs
-                });
-                if take(candidates.collect()) {
-                    return;
+        for (cut, hidden, _) in Cut::hidings() {
+            let Some(candidates) = one_cut(&closed, cut, hidden) else { continue };
+            let candidates = candidates.into_iter().map(|of_cut| {
+                let mut pairs = [(Complex::zero(), Complex::zero()); 6];
+                for (j, (first, second)) in of_cut.into_iter().enumerate() {
+                    let index = cut.unknown_index(j);
+                    pairs[order[index]] = match closed.variables[index] {
+                        Variable::Rotation if cut.reversed => (first, second.neg()),
+                        Variable::Translation if cut.reversed != flipped => (first.neg(), second),
+                        _ => (first, second),
+                    };
                 }
+                pairs
+            });
+            if take(candidates.collect()) {
+                return;
             }
         }
     }

@@ -32,17 +32,8 @@ pub(super) fn choice(closed: &ClosedLoop<Mod>) -> Option<(Cut, Hidden)> {
 }
 
 fn best(closed: &ClosedLoop<Mod>) -> Option<((usize, bool), Cut, Hidden)> {
-    let mut best = None;
-    for cut in Cut::ALL {
-        for hidden in [Hidden::First, Hidden::Second] {
-            let Some(found) = closure_polynomial(closed, cut, hidden) else { continue };
-            let Some(quality) = quality(&found.cofactor) else { continue };
-            if best.is_none_or(|(least, _, _)| quality < least) {
-                best = Some((quality, cut, hidden));
-            }
-        }
-    }
-    best
+    let regular = |(cut, hidden, _)| Some((quality(&closure_polynomial(closed, cut, hidden)?.cofactor)?, cut, hidden));
+    Cut::hidings().filter_map(regular).min_by_key(|(quality, _, _)| *quality)
 }
 
 /// A cut of a loop, or of the same loop with its translation elsewhere along parallel axes.
@@ -109,9 +100,8 @@ fn reading(exact: &Exact) -> Option<(Reading<'_>, Hidden)> {
 /// As `eliminate`, with the best cut that keeps a certain unknown; `None` if all of these lose equations.
 pub(super) fn eliminate_keeping(exact: &Exact, unknown: usize) -> Option<Eliminated> {
     let modular = exact.modular.as_ref()?;
-    let all = Cut::ALL.into_iter().flat_map(|cut| [Hidden::First, Hidden::Second].map(|hidden| (cut, hidden)));
-    let keeps = |cut: &Cut, hidden: Hidden| cut.unknown_index(usize::from(hidden == Hidden::Second)) == unknown;
-    let good = all.filter(|(cut, hidden)| keeps(cut, *hidden)).filter_map(|(cut, hidden)| {
+    let all = Cut::hidings().filter(|(_, _, kept)| *kept == unknown);
+    let good = all.filter_map(|(cut, hidden, _)| {
         Some((quality(&closure_polynomial(modular, cut, hidden)?.cofactor)?, cut, hidden))
     });
     let (_, cut, hidden) = good.min_by_key(|(quality, _, _)| *quality)?;
@@ -152,11 +142,7 @@ fn determinant(cut: Cut, hidden: Hidden, rows: &Bilinear<Rational>) -> Univariat
 
 /// Returns the polynomials of an unknown by all cuts, modulo the prime: every solution is a root of each.
 pub(super) fn eliminants(closed: &ClosedLoop<Mod>, unknown: usize) -> impl Iterator<Item = Univariate<Mod>> {
-    let kept = move |cut: &Cut, hidden| cut.unknown_index(usize::from(hidden == Hidden::Second)) == unknown;
-    let each = move |cut: Cut| {
-        [Hidden::First, Hidden::Second].into_iter().find(|hidden| kept(&cut, *hidden)).map(|h| (cut, h))
-    };
-    Cut::ALL.into_iter().filter_map(each).filter_map(|(cut, hidden)| {
+    Cut::hidings().filter(move |(_, _, kept)| *kept == unknown).filter_map(|(cut, hidden, _)| {
         if !cut.fits(closed.variables) {
             return None;
         }

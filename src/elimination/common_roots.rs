@@ -36,16 +36,11 @@ pub fn common_roots<F: Field + Domain>(
     };
     match Elimination::of(one.variables, None) {
         Elimination::Cut => {
-            for cut in Cut::ALL {
-                for (hidden, unknown) in [(Hidden::First, 0), (Hidden::Second, 1)] {
-                    if is_idle[cut.unknown_index(unknown)] {
-                        continue;
-                    }
-                    let both = [one, other].map(|closed| closure_polynomial(closed, cut, hidden));
-                    let [Some(first), Some(second)] = both else { continue };
-                    if note(&first.cofactor, &second.cofactor) {
-                        return best;
-                    }
+            for (cut, hidden, _) in Cut::hidings().filter(|(_, _, unknown)| !is_idle[*unknown]) {
+                let both = [one, other].map(|closed| closure_polynomial(closed, cut, hidden));
+                let [Some(first), Some(second)] = both else { continue };
+                if note(&first.cofactor, &second.cofactor) {
+                    return best;
                 }
             }
         }

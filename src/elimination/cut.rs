@@ -41,6 +41,13 @@ impl Cut {
     /// The number of leading [`Cut::ALL`] that can be prepared before the closing transformation is known.
     pub const PREPARED: usize = 6;
 
+    /// All cuts with both hidden unknowns, each with its index in the loop.
+    pub fn hidings() -> impl Iterator<Item = (Self, Hidden, usize)> {
+        let of_cut =
+            |cut: Self| [(cut, Hidden::First, cut.unknown_index(0)), (cut, Hidden::Second, cut.unknown_index(1))];
+        Self::ALL.into_iter().flat_map(of_cut)
+    }
+
     /// The loop as this cut reads it.
     #[must_use]
     pub fn of<R: Ring>(self, original: &ClosedLoop<R>) -> ClosedLoop<R> {

@@ -118,20 +118,18 @@ fn degree_by_cuts<F: Field + Domain>(
 ) -> Option<Degree> {
     let mut best: Option<Degree> = None;
     let mut all = |closed: &ClosedLoop<F>, other: Option<&ClosedLoop<F>>| {
-        for cut in Cut::ALL {
-            for hidden in [Hidden::First, Hidden::Second] {
-                if best.is_some_and(|best| best.solutions <= enough) {
-                    return;
-                }
-                let Some(found) = closure_polynomial(closed, cut, hidden) else { continue };
-                let standing = other
-                    .and_then(|other| closure_polynomial(other, cut, hidden))
-                    .map_or(0, |other| found.cofactor.gcd(&other.cofactor).degree().unwrap_or(0));
-                let left_out = 2 * found.spurious + standing;
-                let bound = Degree { solutions: 16 - left_out, left_out };
-                if best.is_none_or(|b| bound.solutions < b.solutions) {
-                    best = Some(bound);
-                }
+        for (cut, hidden, _) in Cut::hidings() {
+            if best.is_some_and(|best| best.solutions <= enough) {
+                return;
+            }
+            let Some(found) = closure_polynomial(closed, cut, hidden) else { continue };
+            let standing = other
+                .and_then(|other| closure_polynomial(other, cut, hidden))
+                .map_or(0, |other| found.cofactor.gcd(&other.cofactor).degree().unwrap_or(0));
+            let left_out = 2 * found.spurious + standing;
+            let bound = Degree { solutions: 16 - left_out, left_out };
+            if best.is_none_or(|b| bound.solutions < b.solutions) {
+                best = Some(bound);
             }
         }
     };

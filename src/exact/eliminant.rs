@@ -81,10 +81,7 @@ pub struct Way {
 /// roots, and of these the ones with the most distinct roots. A filter; nothing rests on it.
 #[must_use]
 pub fn ways<F: Field + Domain>(closed: &ClosedLoop<F>) -> Vec<Way> {
-    let hidings = [(Hidden::First, 0), (Hidden::Second, 1)];
-    let all =
-        Cut::ALL.into_iter().flat_map(|cut| hidings.map(|(hidden, place)| (cut, hidden, cut.unknown_index(place))));
-    let mut ways: Vec<Way> = all
+    let mut ways: Vec<Way> = Cut::hidings()
         .filter_map(|(cut, hidden, unknown)| {
             let found = closure_polynomial(closed, cut, hidden)?;
             let count = DEGREE - 2 * found.spurious;
