@@ -8,7 +8,6 @@ use super::axis_frame::axis_frame;
 use super::chain::{Chain, Geometry, Joint, JointKind, Placement, ScrewJoint};
 use super::freedom::Freedom;
 use super::idle::Idle;
-use super::joint::Axis;
 pub use super::joint::Variable;
 use super::motion::{Motion, unit_near};
 use crate::algebra::enclosure::Enclosure;
@@ -650,23 +649,14 @@ fn link<R: Ring>(at: usize, joint: &Joint, parameters: &impl Parameters<R>) -> O
 /// The unknowns of a joint.
 fn screw_steps<R: Ring>(kind: JointKind, steps: &mut Vec<Step<R>>) {
     for (variable, axis) in kind.variables().iter().zip(kind.row().axes) {
-        match axis {
-            Axis::Z => steps.push(Step::Unknown(*variable)),
-            Axis::X => {
-                let to_x = quarter_turn();
-                let back = to_x.inverse();
-                steps.extend([Step::Constant(to_x), Step::Unknown(*variable), Step::Constant(back)]);
-            }
-        }
-    }
-}
-
-/// The quarter turn about y that carries the z axis into the x axis.
-fn quarter_turn<R: Ring>() -> Motion<R> {
-    let (one, nought) = (R::one, R::zero);
-    Motion {
-        rotation: [[nought(), nought(), one()], [nought(), one(), nought()], [one().neg(), nought(), nought()]],
-        translation: std::array::from_fn(|_| nought()),
+        let carried = axis.row().1.map(|rotation| Motion {
+            rotation: rotation.map(|row| row.map(R::from_integer)),
+            translation: std::array::from_fn(|_| R::zero()),
+        });
+        let back = carried.as_ref().map(Motion::inverse);
+        steps.extend(carried.map(Step::Constant));
+        steps.push(Step::Unknown(*variable));
+        steps.extend(back.map(Step::Constant));
     }
 }
 

@@ -46,6 +46,17 @@ pub enum Axis {
     Z,
 }
 
+impl Axis {
+    /// The letter and, unless it is the z axis, the rotation that carries the z axis into it.
+    #[must_use]
+    pub const fn row(self) -> (&'static str, Option<[[i32; 3]; 3]>) {
+        match self {
+            Self::X => ("x", Some([[0, 0, 1], [0, 1, 0], [-1, 0, 0]])),
+            Self::Z => ("z", None),
+        }
+    }
+}
+
 /// What the constant d or theta of a DH joint is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DhConstant {
@@ -222,11 +233,7 @@ impl JointKind {
     fn axis_name(self, index: usize) -> String {
         let Some(axis) = self.row().axes.get(index).filter(|_| !self.has_one_axis()) else { return String::new() };
         let again = self.row().axes[..index].iter().filter(|other| *other == axis).count();
-        let letter = match axis {
-            Axis::X => "x",
-            Axis::Z => "z",
-        };
-        letter.to_owned() + &"'".repeat(again)
+        axis.row().0.to_owned() + &"'".repeat(again)
     }
 }
 
