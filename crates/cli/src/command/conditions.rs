@@ -15,7 +15,6 @@ use looproot::internal::report::document::complete_ansatz;
 use looproot::internal::report::json::tenths;
 use looproot::internal::report::number::duration;
 use looproot_algebra::drawn::seed_used;
-use std::io::Write;
 use std::time::Instant;
 
 /// Derives the conditions on the parameters for a loop to move.
@@ -54,9 +53,7 @@ pub fn run(options: &ConditionsOptions) -> std::result::Result<Exit, Fault> {
         let times = format!("derived and proved in {}, applied in {}", duration(derived), duration(decided));
         format!("{}\n{times}\n", text(&theorem, &ansatz, &decision))
     };
-    let mut output = Output::open(&options.output, &options.mechanism)?;
-    output.writer.write_all(written.as_bytes())?;
-    output.writer.flush()?;
+    Output::write(&options.output, &options.mechanism, &written)?;
     Ok(exit(&theorem, &ansatz, &decision))
 }
 

@@ -8,7 +8,6 @@ use looproot::internal::catalogue::ansatz::Ansatz;
 use looproot::internal::conditions::search::search;
 use looproot::internal::report::conditions_search::{empty, json, markdown, proof, system, text, verdict};
 use looproot::internal::report::document::complete_ansatz;
-use std::io::Write;
 use std::time::Duration;
 
 /// The default seed of all random choices, so that the same question has the same answer.
@@ -37,9 +36,7 @@ pub fn run(options: &ConditionsOptions, ansatz: &Ansatz) -> Result<Exit, Fault> 
     } else {
         text(ansatz, &found)
     };
-    let mut output = Output::open(&options.output, &options.mechanism)?;
-    output.writer.write_all(written.as_bytes())?;
-    output.writer.flush()?;
+    Output::write(&options.output, &options.mechanism, &written)?;
     Ok(if !proof(ansatz, &found).is_proved() {
         Exit::NotProved
     } else if empty(ansatz, &found).is_some() {

@@ -21,7 +21,6 @@ use looproot::internal::sweep::{EntryCase, SpaceCase, derive_any};
 use looproot_algebra::number::{Number, Quantity};
 use rug::Rational;
 use serde_json::{Value, json};
-use std::io::Write;
 
 /// Derives closure equations and closure polynomial of the requested case, else of the first one.
 pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
@@ -122,9 +121,7 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
         };
         (written, exit)
     };
-    let mut output = Output::open(&options.output, mechanism)?;
-    output.writer.write_all(written.as_bytes())?;
-    output.writer.flush()?;
+    Output::write(&options.output, mechanism, &written)?;
     Ok(exit)
 }
 
@@ -182,9 +179,7 @@ fn by(
     } else {
         ways::text(&found)
     };
-    let mut output = Output::open(&options.output, mechanism)?;
-    output.writer.write_all(written.as_bytes())?;
-    output.writer.flush()?;
+    Output::write(&options.output, mechanism, &written)?;
     Ok(exit(&found.derivation))
 }
 
@@ -215,9 +210,7 @@ fn traced(options: &DeriveOptions, mechanism: &str, entry: &Entry, asked: &str) 
     } else {
         surfaces::text(entry, asked, &found)
     };
-    let mut output = Output::open(&options.output, mechanism)?;
-    output.writer.write_all(written.as_bytes())?;
-    output.writer.flush()?;
+    Output::write(&options.output, mechanism, &written)?;
     Ok(if entry.rounded { Exit::NotProved } else { Exit::Complete })
 }
 

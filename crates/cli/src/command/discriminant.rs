@@ -12,7 +12,6 @@ use looproot::internal::report::cells_picture::{map_svg, svg};
 use looproot::internal::sweep::{MapWanted, Subject, cell_map, cells};
 use looproot_algebra::number::{Angle, Number, Quantity, Reading};
 use serde_json::Value;
-use std::io::Write;
 use std::sync::atomic::Ordering;
 
 /// A mechanism of which cells are printed.
@@ -87,9 +86,7 @@ pub fn run<S: Subject>(
             return Err(Error::Invalid(message).into());
         }
     };
-    let mut output = Output::open(&options.output, mechanism)?;
-    output.writer.write_all(written.as_bytes())?;
-    output.writer.flush()?;
+    Output::write(&options.output, mechanism, &written)?;
     Ok(exit)
 }
 

@@ -7,7 +7,6 @@ use looproot::internal::catalogue::{Any, load_any};
 use looproot::internal::error::Error;
 use looproot::internal::factoring::{Factored, factor};
 use looproot::internal::report::motion::{json, text, toml, verdict};
-use std::io::Write;
 
 /// Factors a rational motion and prints the loop of two factorisations.
 pub fn run(options: &FactorOptions) -> Result<Exit, Fault> {
@@ -27,9 +26,7 @@ pub fn run(options: &FactorOptions) -> Result<Exit, Fault> {
         (_, false) if options.quiet => verdict(&factored, closed.as_ref()) + "\n",
         (_, false) => text(&factored, closed.as_ref()),
     };
-    let mut output = Output::open(&options.output, &options.mechanism)?;
-    output.writer.write_all(written.as_bytes())?;
-    output.writer.flush()?;
+    Output::write(&options.output, &options.mechanism, &written)?;
     Ok(match factored {
         Factored::Exact(_) => Exit::Complete,
         Factored::Float(_) | Factored::None(_) => Exit::NotProved,

@@ -16,7 +16,6 @@ use looproot::internal::linkage::cognates::{COUPLER, cognates};
 use looproot::internal::report::{linkage_derivation as report, linkage_symbolic as symbolic};
 use looproot::internal::sweep::LinkageCase;
 use rug::Rational;
-use std::io::Write;
 
 /// Derives the closure polynomials of the requested case, else of the first one, or the curve of a point.
 pub fn run(options: &DeriveOptions, mechanism: &str, file: &LinkageFile) -> Result<Exit, Fault> {
@@ -109,9 +108,7 @@ pub fn run(options: &DeriveOptions, mechanism: &str, file: &LinkageFile) -> Resu
         };
         (written, exit)
     };
-    let mut output = Output::open(&options.output, mechanism)?;
-    output.writer.write_all(written.as_bytes())?;
-    output.writer.flush()?;
+    Output::write(&options.output, mechanism, &written)?;
     Ok(exit)
 }
 

@@ -12,7 +12,6 @@ use looproot::internal::report::document::complete;
 use looproot::internal::report::framework as report;
 use looproot::internal::report::linkage_mobility;
 use looproot::internal::report::mobility::{json, text, verdict};
-use std::io::Write;
 
 /// Decides whether a mechanism moves.
 pub fn run(options: &MobilityOptions) -> Result<Exit, Fault> {
@@ -51,9 +50,7 @@ pub fn run(options: &MobilityOptions) -> Result<Exit, Fault> {
     } else {
         text(&entry, &answer)
     };
-    let mut output = Output::open(&options.output, &options.mechanism)?;
-    output.writer.write_all(written.as_bytes())?;
-    output.writer.flush()?;
+    Output::write(&options.output, &options.mechanism, &written)?;
     Ok(exit(&answer))
 }
 
@@ -67,9 +64,7 @@ fn of_framework(options: &MobilityOptions, file: &FrameworkFile) -> Result<Exit,
     } else {
         report::text(file, &answer)
     };
-    let mut output = Output::open(&options.output, &options.mechanism)?;
-    output.writer.write_all(written.as_bytes())?;
-    output.writer.flush()?;
+    Output::write(&options.output, &options.mechanism, &written)?;
     Ok(match (answer.is_proved(), answer.freedom()) {
         (false, _) => Exit::NotProved,
         (true, (_, 0)) => Exit::Unreachable,
@@ -87,9 +82,7 @@ fn of_linkage(options: &MobilityOptions, asked: &linkage_mobility::Asked) -> Res
     } else {
         linkage_mobility::text(asked)
     };
-    let mut output = Output::open(&options.output, &options.mechanism)?;
-    output.writer.write_all(written.as_bytes())?;
-    output.writer.flush()?;
+    Output::write(&options.output, &options.mechanism, &written)?;
     Ok(if !answer.proof.is_proved() {
         Exit::NotProved
     } else if answer.mobility == Some(0) {

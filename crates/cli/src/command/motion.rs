@@ -14,7 +14,6 @@ use looproot_calculus::rotation::euler::Order;
 use looproot_calculus::rotation::matrix::{Matrix, matrix, nearest};
 use looproot_calculus::rotation::turn::Turn;
 use looproot_calculus::rotation::vectors::{from_axis_angle, from_euler_vector, from_rodrigues, from_wiener};
-use std::io::Write;
 
 /// A matrix farther from a rotation than this is refused.
 const REFUSED: f64 = 1e-4;
@@ -29,9 +28,7 @@ const KINDS: [&str; 10] =
 pub fn run(options: &MotionOptions) -> std::result::Result<Exit, Fault> {
     let asked = read(options)?;
     let written = if options.json { document(&json(&asked)) } else { text(&asked) };
-    let mut output = Output::open(&options.output, "")?;
-    output.writer.write_all(written.as_bytes())?;
-    output.writer.flush()?;
+    Output::write(&options.output, "", &written)?;
     Ok(Exit::Complete)
 }
 

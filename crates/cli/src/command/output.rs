@@ -49,6 +49,14 @@ impl Output {
         };
         Ok(Self { writer, colour, is_terminal, document: None })
     }
+
+    /// Writes a text that is ready, as [`Self::open`] says.
+    pub fn write(options: &OutputOptions, input: &str, text: &str) -> Result<(), Fault> {
+        let mut output = Self::open(options, input)?;
+        output.writer.write_all(text.as_bytes())?;
+        output.writer.flush()?;
+        Ok(())
+    }
 }
 
 /// An output that can be read afterwards.

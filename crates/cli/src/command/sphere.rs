@@ -126,9 +126,7 @@ pub fn derive(options: &DeriveOptions, mechanism: &str, file: &SphereFile) -> Re
     } else {
         relation(options, file, index).map_err(in_place)?
     };
-    let mut output = Output::open(&options.output, mechanism)?;
-    output.writer.write_all(written.as_bytes())?;
-    output.writer.flush()?;
+    Output::write(&options.output, mechanism, &written)?;
     Ok(if file.exact { Exit::Complete } else { Exit::NotProved })
 }
 

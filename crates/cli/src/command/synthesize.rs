@@ -9,7 +9,6 @@ use looproot::internal::error::Error;
 use looproot::internal::report::synthesis::{defects, json, linkage, picture, text, verdict};
 use looproot::internal::synthesis::{Answer, synthesize};
 use looproot::internal::verdict::Status;
-use std::io::Write;
 
 /// Finds all dyads of a file, or four-bars, and prints them or a linkage of them.
 pub fn run(options: &SynthesizeOptions) -> Result<Exit, Fault> {
@@ -47,9 +46,7 @@ pub fn run(options: &SynthesizeOptions) -> Result<Exit, Fault> {
         let table = if options.no_defects { defects::text(&file, &answer) } else { String::new() };
         text(&file, &answer, options.complex) + &table
     };
-    let mut output = Output::open(&options.output, &options.mechanism)?;
-    output.writer.write_all(written.as_bytes())?;
-    output.writer.flush()?;
+    Output::write(&options.output, &options.mechanism, &written)?;
     Ok(exit(&answer))
 }
 

@@ -7,7 +7,6 @@ use looproot::internal::catalogue::load;
 use looproot::internal::derivation::transference::{NAMED, Transfer};
 use looproot::internal::error::Error;
 use looproot::internal::report::transference::{json, system, text, verdict};
-use std::io::Write;
 
 /// Derives the spherical and the spatial closure equation of a loop of four joints.
 pub fn run(options: &DeriveOptions, mechanism: &str) -> Result<Exit, Fault> {
@@ -28,8 +27,6 @@ pub fn run(options: &DeriveOptions, mechanism: &str) -> Result<Exit, Fault> {
     } else {
         text(&transfer)
     };
-    let mut output = Output::open(&options.output, mechanism)?;
-    output.writer.write_all(written.as_bytes())?;
-    output.writer.flush()?;
+    Output::write(&options.output, mechanism, &written)?;
     Ok(Exit::Complete)
 }

@@ -11,7 +11,7 @@ use looproot::internal::error::Error;
 use looproot::internal::report::framework;
 use looproot::internal::view::{drawable, figures, is_scores, live_page, page, parse, parts};
 use serde_json::Value;
-use std::io::{Read, Write};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -36,9 +36,7 @@ pub fn run(options: &ViewOptions) -> Result<Exit, Fault> {
         (false, map) => page(&document, map.as_deref()),
     };
     if options.svg || !options.open {
-        let mut output = Output::open(&options.solve.output, &options.solve.mechanism)?;
-        output.writer.write_all(text.as_bytes())?;
-        output.writer.flush()?;
+        Output::write(&options.solve.output, &options.solve.mechanism, &text)?;
     } else {
         open(options, &text, &document)?;
     }

@@ -10,7 +10,6 @@ use looproot_algebra::polynomial::Polynomial;
 use looproot_algebra::ring::Ring;
 use looproot_algebra::text::{Format, Fraction, Names};
 use rug::Rational;
-use std::io::Write;
 use std::path::PathBuf;
 
 /// Writes a finished text to its destination, but into none of the files that were read.
@@ -19,10 +18,7 @@ pub fn write(text: &str, output: Option<&PathBuf>, inputs: &[PathBuf]) -> Result
     let place = output.and_then(|output| output.canonicalize().ok());
     let replaced = inputs.iter().find(|input| place.is_some() && input.canonicalize().ok() == place);
     let input = replaced.map(|input| input.display().to_string()).unwrap_or_default();
-    let mut out = Output::open(&options, &input)?;
-    out.writer.write_all(text.as_bytes())?;
-    out.writer.flush()?;
-    Ok(())
+    Output::write(&options, &input, text)
 }
 
 /// Returns polynomials in the requested language; in our own with verdicts.
