@@ -57,6 +57,21 @@ impl OppositeAxes {
         [turning(&n, &m), std::array::from_fn(|k| one[k].add(&two[k]))]
     }
 
+    /// The coordinates of one of the axes across the other, over `(1, cos, sin)` of the rotation on a side: both vanish where the axes are
+    /// parallel.
+    #[must_use]
+    pub fn across<R: Ring>(&self, form: &LinkForm<R, 4, 2>, side: usize) -> [[R; 3]; 2] {
+        let axis = self.first + 2 * side;
+        let (here, next) = (&form.links[axis % 4].rotation, &form.links[(axis + 1) % 4].rotation);
+        let [x, y, z] = [0, 1, 2].map(|i| next[i][2].clone());
+        [0, 1].map(|i| {
+            let row = &here[i];
+            let cos = row[0].mul(&x).add(&row[1].mul(&y));
+            let sin = row[1].mul(&x).sub(&row[0].mul(&y));
+            [row[2].mul(&z), cos, sin]
+        })
+    }
+
     /// The two equations; the sides are the rotations behind the first axis and behind the second one.
     #[must_use]
     pub fn equations<R: Ring>(&self, form: &LinkForm<R, 4, 2>) -> Separated<R> {

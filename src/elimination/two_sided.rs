@@ -104,6 +104,22 @@ impl TwoSided {
         Some(known)
     }
 
+    /// Returns the forms over the monomials of the unknown on a side that all vanish where it leaves other unknowns undetermined.
+    #[must_use]
+    pub fn undetermined<R: Ring>(self, closed: &ClosedLoop<R>, side: usize) -> Vec<[R; 3]> {
+        match self {
+            Self::Centre(spherical) => {
+                let Reach { variables, sides, .. } = Reach::of(closed, spherical);
+                // On the axis of the middle joint the centre leaves it free.
+                let across = if variables[1] == Variable::Rotation { &[0, 1][..] } else { &[] };
+                across.iter().map(|i| sides[side].each_ref().map(|moving| moving[*i].clone())).collect()
+            }
+            Self::OppositeAxes(axes) => {
+                LinkForm::of(closed).map_or(Vec::new(), |form| axes.across(&form, side).to_vec())
+            }
+        }
+    }
+
     /// Returns what a derivation says of a loop with these unknowns, by the labels of its joints.
     #[must_use]
     pub fn words<'l>(self, variables: [Variable; 6], label: impl Fn(usize) -> &'l str) -> Words {

@@ -9,12 +9,11 @@ use crate::algebra::univariate::Univariate;
 use crate::elimination::cut::Hidden;
 use crate::elimination::kind::Elimination;
 use crate::elimination::octic::{closure_polynomial, root_conditions};
-use crate::elimination::opposite_axes::OppositeAxes;
-use crate::elimination::point_reach::Reach;
 use crate::elimination::separated::{Separated, powers, quartic};
 use crate::elimination::spherical_four_bar::FourBar;
 use crate::elimination::spherical_pair;
 use crate::elimination::spherical_triangle::{conditions, triangle_without};
+use crate::elimination::two_sided::TwoSided;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable};
 use crate::kinematics::link_form::LinkForm;
@@ -99,8 +98,11 @@ pub(super) fn relations(chain: &Chain, layout: &Layout, moved: Moved<'_>, offset
         return if found.is_empty() { super::by_cut::relations(chain, layout, offset) } else { found };
     }
     let Some(indices) = indices.into_iter().collect::<Option<Vec<usize>>>() else { return Vec::new() };
-    match Elimination::of(closed.variables, layout.spherical_unknown()) {
-        Elimination::Centre(spherical) => reach(&closed, spherical, &indices),
+    let spherical = layout.spherical_unknown();
+    let special = TwoSided::of(&closed, spherical, 0.0).map_or(Vec::new(), |way| two_sided(&closed, way, &indices));
+    match Elimination::of(closed.variables, spherical) {
+        _ if !special.is_empty() => special,
+        Elimination::Centre(_) => special,
         Elimination::Triangle => triangles(&closed, &indices),
         Elimination::FourBar => four_rotations(&closed, &indices),
         Elimination::Cut | Elimination::Planar => Vec::new(),
@@ -130,18 +132,16 @@ fn ss_dyad(
     Some(Relation::plain(ss_dyad.indices[2], ss_dyad.variable, &equation))
 }
 
-/// One spherical joint: its centre is reached from both sides.
-fn reach(closed: &ClosedLoop<CircleFraction>, spherical: usize, indices: &[usize]) -> Vec<Relation> {
-    let reach = Reach::of(closed, spherical);
-    let side = |hidden: usize| {
-        let relation = separated(&reach.equations, hidden, indices[[(spherical + 5) % 6, (spherical + 3) % 6][hidden]])?;
-        // On the axis of the middle joint the centre leaves it free.
-        let across = |i: usize| of_row(relation.kind, &std::array::from_fn(|k| reach.sides[hidden][k][i].clone()));
-        let turns = reach.variables[1] == Variable::Rotation;
-        let parallel = if turns { vec![across(0), across(1)] } else { Vec::new() };
+/// Two equations with an unknown on either side, either one kept.
+fn two_sided(closed: &ClosedLoop<CircleFraction>, way: TwoSided, indices: &[usize]) -> Vec<Relation> {
+    let Some(equations) = way.equations(closed) else { return Vec::new() };
+    let outputs = way.unknowns(closed.variables).map(|unknown| indices[unknown]);
+    let one = |hidden: usize| {
+        let relation = separated(&equations, hidden, outputs[hidden])?;
+        let parallel = way.undetermined(closed, hidden).iter().map(|form| of_row(relation.kind, form)).collect();
         Some(Relation { parallel, ..relation })
     };
-    (0..2).filter_map(side).collect()
+    (0..2).filter_map(one).collect()
 }
 
 /// Two equations with separated sides, the unknown of one of them kept.
@@ -174,38 +174,8 @@ fn triangles(closed: &ClosedLoop<CircleFraction>, indices: &[usize]) -> Vec<Rela
 /// Four rotations and two translations.
 fn four_rotations(closed: &ClosedLoop<CircleFraction>, indices: &[usize]) -> Vec<Relation> {
     let Some(form): Option<LinkForm<_, 4, 2>> = LinkForm::of(closed) else { return Vec::new() };
-    if let Some(axes) = OppositeAxes::of(&form, 0.0) {
-        let found = opposite(&form, &axes, indices);
-        if !found.is_empty() {
-            return found;
-        }
-    }
     let choices = (0..4).flat_map(|base| [Hidden::First, Hidden::Second].map(|hidden| (base, hidden)));
     choices.filter_map(|(base, hidden)| four_bar(&form, base, hidden, indices)).collect()
-}
-
-/// The translations run along two opposite axes.
-fn opposite(form: &LinkForm<CircleFraction, 4, 2>, axes: &OppositeAxes, indices: &[usize]) -> Vec<Relation> {
-    let equations = axes.equations(form);
-    let one = |hidden: usize| {
-        let axis = axes.first + 2 * hidden;
-        let relation = separated(&equations, hidden, indices[form.rotations[(axis + 1) % 4]])?;
-        Some(Relation { parallel: parallel_axes(form, axis).to_vec(), ..relation })
-    };
-    (0..2).filter_map(one).collect()
-}
-
-/// The coordinates of the axis two behind another one across that one, by the rotation between them: both vanish where
-/// the axes are parallel.
-fn parallel_axes(form: &LinkForm<CircleFraction, 4, 2>, axis: usize) -> [InOutput; 2] {
-    let (here, next) = (&form.links[axis % 4].rotation, &form.links[(axis + 1) % 4].rotation);
-    let [x, y, z] = [0, 1, 2].map(|i| next[i][2].clone());
-    [0, 1].map(|i| {
-        let row = &here[i];
-        let cos = row[0].mul(&x).add(&row[1].mul(&y));
-        let sin = row[1].mul(&x).sub(&row[0].mul(&y));
-        of_row(Variable::Rotation, &[row[2].mul(&z), cos, sin])
-    })
 }
 
 /// A spherical four-bar seen from one link, one of the two angles at it kept.
