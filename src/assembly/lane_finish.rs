@@ -204,12 +204,22 @@ impl<'a> Finish<'a> {
 }
 
 impl Found {
-    /// Returns the certified solution of a lane; `None` where there is no proof.
-    pub fn mode(&self, lane: usize) -> Option<Mode> {
-        let unknowns: [Complex<f64>; 6] = std::array::from_fn(|j| {
+    /// Returns whether real solutions were looked for.
+    pub fn is_real(&self) -> bool {
+        self.is_real
+    }
+
+    /// Returns the unknowns of a lane, polished.
+    pub fn unknowns(&self, lane: usize) -> [Complex<f64>; 6] {
+        std::array::from_fn(|j| {
             let [re, im] = &self.angles[j];
             Complex::new(wrapped(re[lane]), im[lane])
-        });
+        })
+    }
+
+    /// Returns the certified solution of a lane; `None` where there is no proof.
+    pub fn mode(&self, lane: usize) -> Option<Mode> {
+        let unknowns = self.unknowns(lane);
         let imaginary = unknowns.iter().fold(0.0_f64, |a, z| a.max(z.im.abs()));
         let wrong = ANGLE_ERROR * (1.0 + imaginary);
         let (radius, isolation) = (self.radius[lane] + wrong, self.isolation[lane] - wrong);

@@ -11,26 +11,21 @@ use super::real_list::distinct_real;
 use crate::algebra::double_double::DoubleDouble;
 use crate::certify::circle_lanes::{Isolated, Waiting, fourier, isolated};
 use crate::certify::circle_zeros::SAMPLES;
-use crate::certify::closure_lanes::{Brackets, LaneColumns, LaneRows};
+use crate::certify::closure_lanes::{LaneColumns, LaneRows};
 use crate::certify::closure_zeros::EnclosedRows;
 use crate::closure::woernle_lee::MarkedLine;
-use crate::elimination::cut::{Cut, Hidden};
+use crate::elimination::cut::Hidden;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
 use crate::kinematics::motion::Motion;
-use crate::solve::lane_closure::{Angular, Pairs};
+use crate::solve::lane_brackets::Brackets;
+use crate::solve::lane_substitution::LaneView;
 use crate::solve::lanes::Lanes;
 use pulp::{Arch, Simd, WithSimd};
 
 /// A cut with a hidden angle, prepared for many poses.
 struct LaneCut {
-    cut: Cut,
-    hidden: Hidden,
+    view: LaneView,
     rows: LaneRows,
-    /// The constants of the cut and the inverses of the first three; the last one is made for a pose.
-    constants: [Motion<f64>; 6],
-    inverses: [Motion<f64>; 3],
-    /// Rows that give cosine and sine of unknowns 5 and 4.
-    last: [MarkedLine<f64>; 4],
 }
 
 /// The cuts and hidden angles of a loop in which solutions are looked for, those first in which they are found as a rule.
@@ -90,17 +85,14 @@ impl LaneList {
 /// Memory for one pose.
 #[derive(Default)]
 pub struct LaneWorkspace {
-    waiting: Waiting,
+    pub(super) waiting: Waiting,
 }
 
 impl LaneCut {
     /// Prepares a cut of a loop of rotations whose rows do not depend on the pose; `None` for other loops.
     fn new(rows: &EnclosedRows, last: &[MarkedLine<f64>; 4], closed: &ClosedLoop<f64>, hidden: Hidden) -> Option<Self> {
-        let cut = rows.cut;
-        let constants = cut.of(closed).constants;
-        let inverses = [0, 1, 2].map(|k: usize| constants[k].inverse());
         let lanes = rows.lanes.as_ref().filter(|_| closed.variables == [Variable::Rotation; 6])?;
-        Some(Self { cut, hidden, rows: lanes.clone(), constants, inverses, last: *last })
+        Some(Self { view: LaneView::new(rows.cut, hidden, last, closed), rows: lanes.clone() })
     }
 }
 
@@ -134,7 +126,7 @@ impl WithSimd for Digits<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> f64 {
         let cut = self.cut;
-        let [start, _] = cut.ends(self.closed);
+        let [start, _] = cut.view.ends(self.closed);
         let (values, [error, largest]) = cut.columns(simd, self.closed, &start, 0.0).values(simd);
         let zeros = isolated(simd, &values, [error, largest], self.waiting);
         if zeros.is_some() { (largest / error).log10() } else { 0.0 }
@@ -142,13 +134,6 @@ impl WithSimd for Digits<'_> {
 }
 
 impl LaneCut {
-    /// Returns the inverse of constant 6 of the cut, and that constant.
-    #[inline(always)]
-    fn ends(&self, closed: &ClosedLoop<f64>) -> [Motion<f64>; 2] {
-        let (gap, back) = (closed.constants[5].clone(), closed.constants[5].inverse());
-        if self.cut.reversed { [gap, back] } else { [back, gap] }
-    }
-
     /// Returns the columns of the equations at a pose.
     #[inline(always)]
     fn columns<S: Simd>(&self, simd: S, closed: &ClosedLoop<f64>, start: &Motion<f64>, off: f64) -> LaneColumns {
@@ -158,7 +143,7 @@ impl LaneCut {
                 longest = longest.max(x.abs());
             }
         }
-        self.rows.columns(simd, start, [longest, off], self.hidden)
+        self.rows.columns(simd, start, [longest, off], self.view.hidden)
     }
 }
 
@@ -168,8 +153,8 @@ impl WithSimd for Task<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> bool {
         let PoseOf { cut, closed, off, blur, .. } = self.pose;
-        let [start, last] = &cut.ends(closed);
-        let columns = cut.columns(simd, closed, start, off);
+        let ends = cut.view.ends(closed);
+        let columns = cut.columns(simd, closed, &ends[0], off);
         let (values, [error, largest]) = columns.values(simd);
         let Some(zeros) = isolated(simd, &values, [error + blur * largest, largest], &mut self.workspace.waiting)
         else {
@@ -180,7 +165,7 @@ impl WithSimd for Task<'_> {
             return true;
         }
         let fourier = fourier(simd, &values);
-        let place = Place { of: self.pose, columns: &columns, zeros: &zeros, fourier: &fourier, start, last };
+        let place = Place { of: self.pose, columns: &columns, zeros: &zeros, fourier: &fourier, ends: &ends };
         for chunk in 0..count.div_ceil(S::F64_LANES) {
             let found = place.solutions(simd, chunk);
             let lanes = (count - chunk * S::F64_LANES).min(S::F64_LANES);
@@ -200,139 +185,16 @@ struct Place<'a> {
     zeros: &'a Isolated,
     fourier: &'a [f64; SAMPLES],
     /// The inverse of constant 6 of the cut, and that constant.
-    start: &'a Motion<f64>,
-    last: &'a Motion<f64>,
-}
-
-/// Double angles of half-angles given by multiples of cosine and sine.
-#[inline(always)]
-fn double<S: Simd>(cos: Lanes<S>, sin: Lanes<S>) -> [Lanes<S>; 2] {
-    let (square, other, product) = (cos * cos, sin * sin, cos * sin);
-    let over = cos.like(1.0) / (square + other);
-    [(square - other) * over, (product + product) * over]
-}
-
-/// The first or the second pair, whichever is longer.
-#[inline(always)]
-fn longer<S: Simd>(one: [Lanes<S>; 2], other: [Lanes<S>; 2]) -> [Lanes<S>; 2] {
-    let square = one[0].fma(one[0], one[1] * one[1]);
-    let is_other = square.below(other[0].fma(other[0], other[1] * other[1]));
-    [is_other.select(other[0], one[0]), is_other.select(other[1], one[1])]
-}
-
-/// A rotation about z backwards, of a vector.
-#[inline(always)]
-fn unwind<S: Simd>(v: &mut [Lanes<S>; 3], [cos, sin]: [Lanes<S>; 2]) {
-    let (x, y) = (v[0], v[1]);
-    v[0] = cos.fma(x, sin * y);
-    v[1] = sin.subtracted_from(x, cos * y);
-}
-
-/// The image of a direction.
-#[inline(always)]
-fn rotate<S: Simd>(motion: &Motion<f64>, v: &[Lanes<S>; 3]) -> [Lanes<S>; 3] {
-    let mut image = *v;
-    for (x, row) in image.iter_mut().zip(&motion.rotation) {
-        *x = v[0].fma(v[0].like(row[0]), v[1].fma(v[0].like(row[1]), v[2] * v[0].like(row[2])));
-    }
-    image
+    ends: &'a [Motion<f64>; 2],
 }
 
 impl Place<'_> {
     /// Returns the solutions of one register of zeros, each with the bounds of its proof, NaN where there is none.
     #[inline(always)]
     fn solutions<S: Simd>(&self, simd: S, chunk: usize) -> Found {
+        let one = Lanes::splat(simd, 1.0);
         let hidden = self.zeros.near(simd, self.fourier, chunk);
-        let pairs = self.in_loop_order(&self.pairs(hidden));
-        self.of.finish.proved(pairs, Lanes::splat(simd, 1.0))
+        let brackets = Brackets::of(&self.columns.entries.at(hidden));
+        self.of.finish.proved(self.of.cut.view.unknowns(hidden, &brackets, self.ends, one), one)
     }
-
-    /// Returns the unknowns of the cut from the hidden one.
-    #[inline(always)]
-    fn pairs<S: Simd>(&self, hidden: [Lanes<S>; 2]) -> Pairs<Lanes<S>> {
-        let cut = self.of.cut;
-        let [a, b, c, d] = Brackets::of(&self.columns.at(hidden[0], hidden[1])).kernel();
-        let half = longer([a, c], [b, d]);
-        let other = double(half[0], half[1]);
-        let half = longer([a, b], [c, d]);
-        let third = double(half[0], half[1]);
-        let (one, two) = if cut.hidden == Hidden::First { (hidden, other) } else { (other, hidden) };
-        let zero = hidden[0].like(0.0);
-        // The last axis, as the frame in front of unknown 4 has it.
-        let motion = self.start;
-        let (r, t) = (&motion.rotation, &motion.translation);
-        let mut l = [zero.like(r[0][2]), zero.like(r[1][2]), zero.like(r[2][2])];
-        let mut p = [zero.like(t[0]), zero.like(t[1]), zero.like(t[2])];
-        for (pair, back) in [one, two, third].into_iter().zip(&cut.inverses) {
-            unwind(&mut l, pair);
-            unwind(&mut p, pair);
-            l = rotate(back, &l);
-            p = rotate(back, &p);
-            for (x, shift) in p.iter_mut().zip(back.translation) {
-                *x = *x + zero.like(shift);
-            }
-        }
-        let line = marked(&l, &p);
-        let mut last = [zero; 4];
-        for (value, row) in last.iter_mut().zip(&cut.last) {
-            for (x, factor) in line.iter().zip(row) {
-                *value = x.fma(zero.like(*factor), *value);
-            }
-        }
-        let fifth = Lanes::normalised([last[0], last[1]]);
-        let fourth = Lanes::normalised([last[2], last[3]]);
-        // The x axis of the closing transformation, carried through the loop, is turned by unknown 6.
-        let row = &self.last.rotation[0];
-        let mut x = [zero.like(row[0]), zero.like(row[1]), zero.like(row[2])];
-        for (k, pair) in [one, two, third, fourth, fifth].into_iter().enumerate() {
-            unwind(&mut x, pair);
-            let g = &cut.constants[k].rotation;
-            let old = x;
-            for (j, slot) in x.iter_mut().enumerate() {
-                *slot = old[0].fma(zero.like(g[0][j]), old[1].fma(zero.like(g[1][j]), old[2] * zero.like(g[2][j])));
-            }
-        }
-        [one, two, third, fourth, fifth, Lanes::normalised([x[0], x[1]])]
-    }
-
-    /// Returns the unknowns in the order and direction of the loop.
-    #[inline(always)]
-    fn in_loop_order<S: Simd>(&self, pairs: &Pairs<Lanes<S>>) -> Pairs<Lanes<S>> {
-        let cut = self.of.cut.cut;
-        let mut ordered = *pairs;
-        for (j, [cos, sin]) in pairs.iter().enumerate() {
-            ordered[cut.unknown_index(j)] = [*cos, if cut.reversed { -*sin } else { *sin }];
-        }
-        ordered
-    }
-}
-
-/// The sum of products.
-#[inline(always)]
-fn dot<S: Simd>(x: &[Lanes<S>; 3], y: &[Lanes<S>; 3]) -> Lanes<S> {
-    x[0].fma(y[0], x[1].fma(y[1], x[2] * y[2]))
-}
-
-/// The coordinates of a line with a marked point.
-#[inline(always)]
-fn marked<S: Simd>(l: &[Lanes<S>; 3], p: &[Lanes<S>; 3]) -> [Lanes<S>; 15] {
-    let (pl, pp) = (dot(p, l), dot(p, p));
-    let twice = pl + pl;
-    [
-        l[0].like(1.0),
-        l[0],
-        l[1],
-        l[2],
-        p[0],
-        p[1],
-        p[2],
-        pl,
-        pp,
-        p[2].subtracted_from(l[1], p[1] * l[2]),
-        p[0].subtracted_from(l[2], p[2] * l[0]),
-        p[1].subtracted_from(l[0], p[0] * l[1]),
-        twice.subtracted_from(p[0], pp * l[0]),
-        twice.subtracted_from(p[1], pp * l[1]),
-        twice.subtracted_from(p[2], pp * l[2]),
-    ]
 }

@@ -1,5 +1,6 @@
 //! From roots to assembly modes: prepares a geometry once, then finds every way to close it, pose after pose.
 
+mod all_list;
 mod axis_triples;
 mod closed_form;
 mod few_revolutes;

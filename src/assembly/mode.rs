@@ -82,7 +82,7 @@ pub struct Assembly {
     /// Whether some cut gave a pencil whose every root near the real axis was resolved, and one root at least led
     /// to a solution.
     pub real_resolved: bool,
-    /// Number of pencils solved.
+    /// Number of pencils solved; solutions found by zeros of a determinant or closed forms take none.
     pub tries: usize,
     /// Number of modes found or proved in multiprecision arithmetic only.
     pub by_high_precision: usize,

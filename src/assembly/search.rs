@@ -1,7 +1,9 @@
 //! The search for the solutions of one pose: cut after cut, root after root, until nothing is missing.
 
+use super::all_list::AllList;
 use super::closed_form::{Rounded, STORED};
 use super::lane_finish::Finish;
+use super::lane_list::LaneWorkspace;
 use super::limits;
 use super::mode::{Assembly, Hits, Mode, Roots, are_all_apart, distance, wrapped};
 use super::prepared::PreparedCut;
@@ -60,6 +62,8 @@ pub(super) struct Search<'a> {
     pub spherical: Option<usize>,
     /// The part of the loop that a closed form solves, if there is one.
     pub decoupled: Option<Decoupled>,
+    /// The way to all solutions side by side, if they are requested and there is one.
+    pub all_list: Option<(&'a AllList, &'a mut LaneWorkspace)>,
     /// Whether the joints are dependent in every position.
     pub is_deficient: bool,
     /// Bound on the rounding error of the closing transformation.
@@ -85,6 +89,9 @@ impl Search<'_> {
         };
         let is_asked = self.roots == Roots::All && matches!(self.effort, Effort::All(_));
         if is_asked && self.by_closed_form(most, Rounded::STORED) {
+            return;
+        }
+        if self.by_all_zeros() {
             return;
         }
         match Elimination::of(self.closed.variables, self.spherical) {
@@ -278,6 +285,26 @@ impl Search<'_> {
         let done = Arch::new().dispatch(SideBySide { finish, real, complex, modes: &mut self.assembly.modes });
         let stored = LazyCell::new(STORED);
         let all = self.alone(real, &done[0], &stored) && self.alone(complex, &done[1], &stored);
+        self.is_whole(all)
+    }
+
+    /// Lists sixteen solutions by the zeros of a determinant, if there are so many that are certified. Returns whether that succeeds; otherwise
+    /// the list is as it was.
+    fn by_all_zeros(&mut self) -> bool {
+        let Some((list, workspace)) = &mut self.all_list else { return false };
+        if !self.assembly.modes.is_empty() {
+            return false;
+        }
+        let finish = Finish::new(self.closed, self.gap_rounding);
+        let left = list.solve(self.closed, finish, &mut workspace.waiting, &mut self.assembly.modes);
+        let stored = LazyCell::new(STORED);
+        let alone = |(start, is_real): &(Six<Complex<f64>>, bool)| self.one_alone(start, *is_real, &stored);
+        let all = left.is_some_and(|left| left.starts().iter().all(alone));
+        self.is_whole(all)
+    }
+
+    /// Returns whether sixteen solutions are listed, all certified and apart, if `all` are proved; otherwise nothing is listed.
+    fn is_whole(&mut self, all: bool) -> bool {
         let modes = &mut self.assembly.modes;
         if all && modes.len() == side_by_side::MOST && are_all_apart(&self.closed.variables, modes) {
             (self.assembly.all_resolved, self.assembly.real_resolved) = (true, true);

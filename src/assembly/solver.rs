@@ -1,5 +1,6 @@
 //! A geometry prepared once for many poses.
 
+use super::all_list::AllList;
 use super::axis_triples::{AxisTriple, decoupled};
 use super::closed_form::Rounded;
 use super::high_precision::solve_in_high_precision;
@@ -66,6 +67,8 @@ pub struct Solver {
     zero_order: OnceLock<Vec<(usize, Hidden)>>,
     /// The same side by side.
     lanes: OnceLock<LaneList>,
+    /// The cut and hidden angle in which all solutions are looked for side by side, if there is one.
+    all_list: OnceLock<Option<AllList>>,
 }
 
 /// The closing transformation at a pose or input: the constant behind the last unknown, in the scale of its solver.
@@ -91,6 +94,8 @@ const ANY_PLACE: [f64; 6] = [0.7, -1.1, 1.9, 0.4, -2.3, 1.3];
 /// Places at which ways to find real solutions are compared: with one, the first way fails at 8 poses of general arms in a hundred, with
 /// so many at 6.
 const PLACES: usize = 5;
+/// The same for all solutions, which costs a few microseconds in each: more places find no better way.
+const PLACES_OF_ALL: usize = 2;
 /// Rounding errors, in units u, of the rotation of a closing transformation, by rows. It is a product of three rotations,
 /// each rounded once. An entry of the first product is off by 5 u, one of the second by 5 sqrt(3) u and 4 u of its own.
 const GAP_TURN: f64 = 40.0;
@@ -165,8 +170,19 @@ impl Solver {
         let structural_rank = structural_rank(&closed);
         let axis_triples = AxisTriple::all(&open);
         let decoupled = decoupled(&open);
-        let (zero_order, lanes) = (OnceLock::new(), OnceLock::new());
-        Self { open, scale, prepared, structural_rank, axis_triples, decoupled, spherical: None, zero_order, lanes }
+        let (zero_order, lanes, all_list) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
+        Self {
+            open,
+            scale,
+            prepared,
+            structural_rank,
+            axis_triples,
+            decoupled,
+            spherical: None,
+            zero_order,
+            lanes,
+            all_list,
+        }
     }
 
     /// As [`Solver::prepare`] for a loop with a spherical joint, whose three rotations begin at this unknown.
@@ -442,6 +458,22 @@ impl Solver {
         order.into_iter().map(|(_, k, hidden)| (k, hidden)).collect()
     }
 
+    /// Returns the way to all solutions side by side, if there is one: the joints are rotations, no solution of general poses is at infinity,
+    /// none shares its hidden angle, and no closed form is faster.
+    pub(super) fn all_list(&self) -> Option<&AllList> {
+        if self.structural_rank < 6 || self.spherical.is_some() || self.decoupled.is_some() {
+            return None;
+        }
+        let places = || -> Vec<ClosedLoop<f64>> { (0..PLACES_OF_ALL).map(|turns| self.at_any_place(turns)).collect() };
+        self.all_list.get_or_init(|| AllList::new(&self.prepared, &places())).as_ref()
+    }
+
+    /// Leaves all solutions to the pencils, for comparison.
+    #[cfg(test)]
+    pub(super) fn by_pencils_alone(self) -> Self {
+        Self { all_list: OnceLock::from(None), ..self }
+    }
+
     /// Finds solutions with the given effort.
     fn search(&self, gap: &Gap, roots: Roots, effort: Effort<'_>, workspace: &mut Workspace, assembly: &mut Assembly) {
         assembly.clear();
@@ -460,11 +492,13 @@ impl Solver {
         workspace: &'a mut Workspace,
         assembly: &'a mut Assembly,
     ) -> Search<'a> {
+        let all_list = if roots == Roots::All { self.all_list() } else { None };
         Search {
             prepared: &self.prepared,
             closed,
             spherical: self.spherical,
             decoupled: self.decoupled,
+            all_list: all_list.map(|list| (list, &mut workspace.lanes)),
             arrangement: AS_IT_IS,
             is_deficient: self.structural_rank < 6,
             gap_rounding: gap.rounding,

@@ -63,6 +63,7 @@ impl Search<'_> {
             closed: &closed,
             spherical: None,
             decoupled: None,
+            all_list: None,
             arrangement: AS_IT_IS,
             is_deficient: false,
             gap_rounding: self.gap_rounding,

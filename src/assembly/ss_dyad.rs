@@ -127,6 +127,7 @@ fn one<S: Scalar>(
         closed: &closed,
         spherical: None,
         decoupled: None,
+        all_list: None,
         arrangement: AS_IT_IS,
         is_deficient: false,
         gap_rounding: 0.0,

@@ -168,6 +168,18 @@ impl<S: Simd> Angular<S> for ComplexLanes<S> {
     }
 }
 
+impl<S: Simd> ComplexLanes<S> {
+    /// Returns cosine and sine of angles q, given `e^(i q)`.
+    #[must_use]
+    #[inline(always)]
+    pub fn of_exponential(w: Self) -> [Self; 2] {
+        let (half, back) = (w.re.like(0.5), w.inverse());
+        let (sum, difference) = ((w + back).times(half), (w - back).times(half));
+        // sin = -i (w - 1/w) / 2
+        [sum, Self { re: difference.im, im: -difference.re }]
+    }
+}
+
 /// Pairs of complex angles.
 pub trait Exponential<S: Simd> {
     /// Returns the larger one of `e^(i q)` and `e^(-i q)`, which keeps its digits, and where it is the second one.

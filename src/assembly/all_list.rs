@@ -1,0 +1,319 @@
+//! All sixteen solutions of one pose of a general arm, side by side in vector registers.
+//!
+//! The determinant of a cut is a trigonometric polynomial of degree 8 in the hidden angle, with sixteen zeros. Those on the circle are
+//! told apart as in [`lane_list`](super::lane_list), with a guess in place of a bound of errors, and the others are sought all at once. Nothing
+//! rests on any of this: every solution is [polished and certified](super::lane_finish), and sixteen that are apart are all.
+
+use super::lane_finish::{Finish, Found};
+use super::mode::Mode;
+use super::prepared::PreparedCut;
+use super::side_by_side::MOST;
+use crate::certify::circle_lanes::{Isolated, Waiting, directions, fourier, isolated};
+use crate::certify::circle_zeros::SAMPLES;
+use crate::elimination::cut::Hidden;
+use crate::kinematics::closed_loop::{ClosedLoop, Variable};
+use crate::kinematics::motion::Motion;
+use crate::solve::disk_roots::{DEGREE, OnCircle, inside};
+use crate::solve::lane_brackets::{Brackets, LaneEntries, LaneForms, forms};
+use crate::solve::lane_substitution::LaneView;
+use crate::solve::lanes::{ComplexLanes, Lanes, WIDTH};
+use crate::solve::newton::Six;
+use num_complex::Complex;
+use pulp::{Arch, Simd, WithSimd};
+
+/// The error of a value of the determinant in parts of the largest one, as a rule.
+const NOISE: f64 = 1e-14;
+/// The leading coefficient in parts of the largest value below which some zeros are at infinity: of general arms it is 1e-4 as a rule.
+const LEADING: f64 = 1e-9;
+/// Values count no less than this part of the largest one in their mean: no product of them is 0.
+const LEAST: f64 = 1e-12;
+
+/// The cut and hidden angle of a loop of six rotations in which solutions are looked for.
+pub(super) struct AllList {
+    arch: Arch,
+    view: LaneView,
+    forms: LaneForms,
+}
+
+/// Solutions that are not certified yet.
+pub(super) struct Left {
+    starts: [(Six<Complex<f64>>, bool); MOST],
+    count: usize,
+}
+
+impl Left {
+    /// Returns places near them, and whether they are real.
+    pub fn starts(&self) -> &[(Six<Complex<f64>>, bool)] {
+        &self.starts[..self.count]
+    }
+}
+
+/// The determinant of a pose.
+struct Determinant {
+    entries: LaneEntries,
+    values: [f64; SAMPLES],
+    largest: f64,
+}
+
+/// Returns the size of the leading coefficient in parts of the largest value, and whether all zeros on the circle are told apart.
+struct Rating<'a> {
+    list: &'a AllList,
+    closed: &'a ClosedLoop<f64>,
+    waiting: &'a mut Waiting,
+}
+
+/// The search for the solutions of a pose.
+struct Task<'a> {
+    list: &'a AllList,
+    closed: &'a ClosedLoop<f64>,
+    finish: Finish<'a>,
+    waiting: &'a mut Waiting,
+    modes: &'a mut Vec<Mode>,
+}
+
+impl AllList {
+    /// Prepares a loop, given closed at some places without any property; `None` where some solutions are at infinity or share a hidden angle at
+    /// such places.
+    pub fn new(prepared: &[PreparedCut], places: &[ClosedLoop<f64>]) -> Option<Self> {
+        let arch = Arch::new();
+        let mut best: Option<(f64, Self)> = None;
+        let mut waiting = Waiting::default();
+        for prepared in prepared {
+            let (Some(rows), Some(closed)) = (&prepared.rows, places.first()) else { continue };
+            if prepared.cut.constant_index(5) != 5 || closed.variables != [Variable::Rotation; 6] {
+                continue;
+            }
+            let forms = LaneForms::new(&forms(rows, &prepared.cut.constant(closed, 0).inverse()));
+            for hidden in [Hidden::First, Hidden::Second] {
+                let view = LaneView::new(prepared.cut, hidden, &prepared.form.last_monomials, closed);
+                let list = Self { arch, view, forms: forms.clone() };
+                // In the mean over the places, in digits.
+                let mut rating = Some(0.0);
+                for closed in places {
+                    let leading = arch.dispatch(Rating { list: &list, closed, waiting: &mut waiting });
+                    rating = rating.zip(leading).map(|(sum, x)| sum + x.log10());
+                }
+                if let Some(rating) = rating.filter(|x| best.as_ref().is_none_or(|(best, _)| x > best)) {
+                    best = Some((rating, list));
+                }
+            }
+        }
+        best.map(|(_, list)| list)
+    }
+
+    /// Lists solutions of a pose with their proofs, and returns those that are left to prove, sixteen in all; `None` where their zeros are not found.
+    pub fn solve(
+        &self,
+        closed: &ClosedLoop<f64>,
+        finish: Finish<'_>,
+        waiting: &mut Waiting,
+        modes: &mut Vec<Mode>,
+    ) -> Option<Left> {
+        self.arch.dispatch(Task { list: self, closed, finish, waiting, modes })
+    }
+
+    /// Returns the determinant at a pose.
+    #[inline(always)]
+    fn determinant<S: Simd>(&self, simd: S, start: &Motion<f64>) -> Determinant {
+        let entries = LaneEntries::of(simd, &self.forms.at_pose(simd, start), self.view.hidden);
+        let (cos, sin) = directions();
+        let values = entries.determinants(simd, cos, sin);
+        let mut largest = 0.0_f64;
+        for x in &values {
+            largest = largest.max(x.abs());
+        }
+        Determinant { entries, values, largest }
+    }
+}
+
+impl Determinant {
+    /// Tells the zeros on the circle apart.
+    #[inline(always)]
+    fn isolated<S: Simd>(&self, simd: S, waiting: &mut Waiting) -> Option<Isolated> {
+        isolated(simd, &self.values, [NOISE * self.largest, self.largest], waiting)
+    }
+
+    /// Returns the coefficients of the powers of `e^(i q)` that are not negative; `None` where the last one is too small.
+    #[inline(always)]
+    fn powers(&self, fourier: &[f64; SAMPLES]) -> Option<[[f64; 2]; DEGREE + 1]> {
+        let mut powers = [[0.0; 2]; DEGREE + 1];
+        powers[0] = [fourier[0], 0.0];
+        for k in 1..=DEGREE {
+            powers[k] = [0.5 * fourier[k], -0.5 * fourier[DEGREE + k]];
+        }
+        let [re, im] = powers[DEGREE];
+        (re.abs() + im.abs() > LEADING * self.largest).then_some(powers)
+    }
+
+    /// Returns the mean of the values by their logarithms.
+    #[inline(always)]
+    fn mean(&self) -> f64 {
+        let mut product = 1.0;
+        for x in &self.values {
+            product *= (x.abs() / self.largest).max(LEAST);
+        }
+        self.largest * product.powf(1.0 / SAMPLES as f64)
+    }
+}
+
+impl WithSimd for Rating<'_> {
+    type Output = Option<f64>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Option<f64> {
+        let [start, _] = self.list.view.ends(self.closed);
+        let determinant = self.list.determinant(simd, &start);
+        let powers = determinant.powers(&fourier(simd, &determinant.values))?;
+        determinant.isolated(simd, self.waiting)?;
+        let [re, im] = powers[DEGREE];
+        Some((re.abs() + im.abs()) / determinant.largest)
+    }
+}
+
+impl WithSimd for Task<'_> {
+    type Output = Option<Left>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, simd: S) -> Option<Left> {
+        let (list, one) = (self.list, Lanes::splat(simd, 1.0));
+        let ends = list.view.ends(self.closed);
+        let determinant = list.determinant(simd, &ends[0]);
+        let fourier = fourier(simd, &determinant.values);
+        let powers = determinant.powers(&fourier)?;
+        let real = determinant.isolated(simd, self.waiting)?;
+        let mut left = Left { starts: [([Complex::new(0.0, 0.0); 6], false); MOST], count: 0 };
+        let (mut cos, mut sin) = ([0.0; 2 * WIDTH], [0.0; 2 * WIDTH]);
+        for chunk in 0..real.count.div_ceil(S::F64_LANES) {
+            let hidden = real.near(simd, &fourier, chunk);
+            hidden[0].store(&mut cos, chunk);
+            hidden[1].store(&mut sin, chunk);
+        }
+        let on = OnCircle { cos: &cos[..real.count], sin: &sin[..real.count] };
+        let complex = inside(simd, &powers, on, determinant.mean())?;
+        for chunk in 0..real.count.div_ceil(S::F64_LANES) {
+            let hidden = [Lanes::load(simd, &cos, chunk), Lanes::load(simd, &sin, chunk)];
+            let brackets = Brackets::of(&determinant.entries.at(hidden));
+            let found = self.finish.proved(list.view.unknowns(hidden, &brackets, &ends, one), one);
+            self.list_lanes(&found, real.count - chunk * S::F64_LANES, S::F64_LANES, &mut left);
+        }
+        for chunk in 0..complex.count.div_ceil(S::F64_LANES) {
+            let w =
+                ComplexLanes { re: Lanes::load(simd, &complex.re, chunk), im: Lanes::load(simd, &complex.im, chunk) };
+            let brackets = Brackets::of(&determinant.entries.times_exponential(w));
+            let hidden = ComplexLanes::of_exponential(w);
+            let found = self.finish.proved(list.view.unknowns(hidden, &brackets, &ends, one), one);
+            self.list_lanes(&found, complex.count - chunk * S::F64_LANES, S::F64_LANES, &mut left);
+        }
+        Some(left)
+    }
+}
+
+impl Task<'_> {
+    /// Lists what is certified of the first lanes, with conjugates, and takes note of the rest.
+    #[inline(always)]
+    fn list_lanes(&mut self, found: &Found, count: usize, width: usize, left: &mut Left) {
+        for lane in 0..count.min(width) {
+            let Some(mode) = found.mode(lane) else {
+                left.starts[left.count] = (found.unknowns(lane), found.is_real());
+                left.count += 1;
+                continue;
+            };
+            if !mode.real {
+                self.modes.push(mode.conjugate());
+            }
+            self.modes.push(mode);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::assembly::{Assembly, Roots, Solver, Workspace, distance};
+    use crate::kinematics::closed_loop::{OpenLoop, Variable};
+    use crate::kinematics::motion::Motion;
+    use rand::{Rng, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+    use std::f64::consts::PI;
+
+    const UNKNOWNS: [Variable; 6] = [Variable::Rotation; 6];
+
+    /// Returns an arm: a general one, a badly scaled one, or one with two neighbouring axes that are parallel.
+    fn arm(kind: usize, random: &mut ChaCha8Rng) -> [Motion<f64>; 6] {
+        std::array::from_fn(|k| {
+            let mut value = |size: f64| random.random_range(-size..size);
+            let (mut a, mut twist, d) = (value(1.0), value(PI), value(1.0));
+            match kind {
+                1 => a *= 10_f64.powf(value(1.5)),
+                2 if k == 1 => twist = 0.0,
+                _ => {}
+            }
+            Motion { translation: [a, 0.0, d], ..Motion::rotation_x(twist.cos(), twist.sin()) }
+        })
+    }
+
+    fn prepared(links: &[Motion<f64>; 6]) -> Solver {
+        Solver::prepare(&OpenLoop {
+            variables: UNKNOWNS,
+            constants: std::array::from_fn(|k| links[k].clone()),
+            before_gap: links[5].clone(),
+            after_gap: Motion::identity(),
+        })
+    }
+
+    #[test]
+    fn lists_are_those_of_the_pencils() {
+        let mut random = ChaCha8Rng::seed_from_u64(11);
+        let mut workspace = Workspace::default();
+        let (mut quick, mut slow) = (Assembly::default(), Assembly::default());
+        let (mut side_by_side, mut compared) = (0, 0);
+        for number in 0..300 {
+            let links = arm(number % 3, &mut random);
+            let (lanes, pencils) = (prepared(&links), prepared(&links).by_pencils_alone());
+            let mut reached = Motion::<f64>::identity();
+            for link in &links {
+                let (sin, cos) = random.random_range(-PI..PI).sin_cos();
+                reached = reached.then_after(&Motion::rotation_z(cos, sin)).then_after(link);
+            }
+            let gap = lanes.gap(&reached.inverse());
+            lanes.solve_up_to(&gap, Roots::All, &|_| usize::MAX, &mut workspace, &mut quick);
+            pencils.solve_up_to(&gap, Roots::All, &|_| usize::MAX, &mut workspace, &mut slow);
+            side_by_side += usize::from(quick.tries == 0);
+            if quick.tries > 0 {
+                continue;
+            }
+            assert!(quick.all_resolved && quick.real_resolved && quick.total() == 16, "arm {number}");
+            assert!(quick.modes.iter().all(|mode| mode.certificate.is_some()), "arm {number}");
+            // Pencils may leave solutions unproved or out.
+            if slow.modes.len() < 16 || slow.modes.iter().any(|mode| mode.certificate.is_none()) {
+                continue;
+            }
+            compared += 1;
+            assert_eq!(quick.real(), slow.real(), "arm {number}");
+            for mode in &quick.modes {
+                let is_it = |other: &&crate::assembly::Mode| {
+                    let radius = |mode: &crate::assembly::Mode| mode.certificate.map_or(f64::NAN, |proof| proof.radius);
+                    distance(&UNKNOWNS, &mode.unknowns, &other.unknowns) <= radius(mode) + radius(other)
+                };
+                let same: Vec<_> = slow.modes.iter().filter(is_it).collect();
+                assert_eq!(same.len(), 1, "arm {number}: {mode:?}");
+                assert_eq!(same[0].real, mode.real);
+                let apart = distance(&UNKNOWNS, &mode.unknowns, &same[0].unknowns);
+                assert!(apart < 1e-9, "arm {number}: {apart:e}");
+            }
+        }
+        assert!(side_by_side > 270 && compared > 260, "{side_by_side} side by side, {compared} compared");
+    }
+
+    /// Where solutions share a hidden angle or are at infinity at every pose, the pencils are asked at once.
+    #[test]
+    fn special_arms_have_no_such_list() {
+        let mut random = ChaCha8Rng::seed_from_u64(12);
+        // Pairs of parallel axes.
+        let mut links = arm(0, &mut random);
+        for k in [0, 2, 4] {
+            links[k] = Motion { translation: links[k].translation, ..Motion::identity() };
+        }
+        assert!(prepared(&links).all_list().is_none());
+        assert!(prepared(&arm(0, &mut random)).all_list().is_some());
+    }
+}
