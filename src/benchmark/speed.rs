@@ -9,9 +9,16 @@ use crate::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop};
 use crate::kinematics::motion::Motion;
 use crate::solve::eigen::EigenWorkspace;
 use crate::solve::francis;
+use rand::Rng;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use std::f64::consts::PI;
 use std::fmt::{self, Display};
 use std::hint::black_box;
 use std::time::Instant;
+
+/// Poses of one arm: more of them give the same mean.
+const POSES: usize = 512;
 
 /// Median and fastest time of each stage, microseconds per sample.
 #[derive(Clone, Debug)]
@@ -37,6 +44,7 @@ pub fn run(count: u64, repeats: usize, seed: u64) -> Result<Timings> {
         exact.push(drawn.chain.open_loop(&layout)?.close(&Motion::identity()));
     }
     let solvers: Vec<Solver> = arms.iter().map(|(open, _)| Solver::prepare(open)).collect();
+    let batch = one_arm(seed)?;
     let matrices: Vec<Square<f64, 16>> =
         solvers.iter().zip(&arms).filter_map(|(solver, (_, pose))| solver.companion(pose)).collect();
     let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
@@ -47,6 +55,7 @@ pub fn run(count: u64, repeats: usize, seed: u64) -> Result<Timings> {
         "real solutions",
         "real solutions, proved",
         "all 16 solutions",
+        "all 16, poses of one arm",
         "prepare a geometry",
     ]);
     for _ in 0..repeats {
@@ -65,11 +74,28 @@ pub fn run(count: u64, repeats: usize, seed: u64) -> Result<Timings> {
             black_box(solvers[k].solve_real(&gap, &exact, Margin::Blur(0.0), &mut workspace, &mut assembly));
         });
         stages.time(4, arms.len(), &mut |k| solvers[k].solve(&arms[k].1, Roots::All, &mut workspace, &mut assembly));
-        stages.time(5, arms.len(), &mut |k| {
+        stages.time(5, batch.1.len(), &mut |k| batch.0.solve(&batch.1[k], Roots::All, &mut workspace, &mut assembly));
+        stages.time(6, arms.len(), &mut |k| {
             black_box(Solver::prepare(&arms[k].0));
         });
     }
     Ok(stages.timings())
+}
+
+/// Draws a general arm, and poses that random joint values reach.
+fn one_arm(seed: u64) -> Result<(Solver, Vec<Motion<f64>>)> {
+    let chain = sample(Set::General, seed, 0)?.chain;
+    let solver = Solver::prepare(&chain.open_loop(&Layout::of(&chain, None)?)?);
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut closings = Vec::with_capacity(POSES);
+    for _ in 0..POSES {
+        let turns: [Motion<f64>; 6] = std::array::from_fn(|_| {
+            let (sin, cos) = random.random_range(-PI..PI).sin_cos();
+            Motion::rotation_z(cos, sin)
+        });
+        closings.push(chain.forward::<f64>(&turns)?.inverse());
+    }
+    Ok((solver, closings))
 }
 
 /// Times of several stages, gathered over many repeats.

@@ -18,6 +18,10 @@ use num_complex::Complex;
 /// Distance between a stored constant's nearest rigid motion and the constant before rounding, in parts of u and of 1
 /// or the longest coordinate: entries are off by u, so are those of the nearest rotation, together by 6 u at most.
 const CONSTANT_ROUNDINGS: f64 = 8.0;
+/// A step of this size, over the longest translation, is the last one for stored constants: their rounding moves the solution by more.
+const STORED_SETTLED: f64 = 1e-20;
+/// The same for exact constants: what is left is rounding of double-double arithmetic, in well conditioned places.
+const EXACT_SETTLED: f64 = 1e-26;
 /// A solution that the rounding of the constants may have moved farther than this, over its longest translation, gets no
 /// certificate.
 const MOST_DRIFT: f64 = 1e-6;
@@ -292,14 +296,15 @@ pub fn refined_certificate_of(closed: &ClosedLoop<f64>, unknowns: &Six<Complex<f
 struct Convergence {
     before: f64,
     may_stall: bool,
+    settled: f64,
 }
 
 impl Convergence {
     /// Steps below this are rounding errors of double-double arithmetic, also where a Jacobian is nearly singular.
     const ROUNDING: f64 = 1e-12;
 
-    fn new() -> Self {
-        Self { before: f64::INFINITY, may_stall: true }
+    fn of(data: Option<Data>) -> Self {
+        Self { before: f64::INFINITY, may_stall: true, settled: if data.is_some() { STORED_SETTLED } else { EXACT_SETTLED } }
     }
 
     /// Returns whether a step of this size was the last one; `None` where the method does not converge.
@@ -312,7 +317,7 @@ impl Convergence {
         }
         self.may_stall &= !wanders;
         self.before = size;
-        Some(size < 1e-26 || (stalls && !wanders))
+        Some(size < self.settled || (stalls && !wanders))
     }
 }
 
@@ -327,7 +332,7 @@ fn refined_complex(
         Variable::Translation => extended(unknowns[j]),
     });
     let mut at = Approach { closed: precise, state, reach: reach(&precise.variables, unknowns) };
-    let mut convergence = Convergence::new();
+    let mut convergence = Convergence::of(data);
     for round in 0..12 {
         let pairs = at.pairs()?;
         let (mut here, inverse, step) = at.newton(&pairs, rough_inverse)?;
@@ -379,7 +384,7 @@ fn refined_real(precise: &ClosedLoop<DoubleDouble>, unknowns: &Six<f64>, data: O
         Variable::Rotation => on_circle(unknowns[j].cos().into(), unknowns[j].sin().into()),
         Variable::Translation => (unknowns[j].into(), DoubleDouble::zero()),
     });
-    let mut convergence = Convergence::new();
+    let mut convergence = Convergence::of(data);
     loop {
         let mut here = closure_at::<DoubleDouble>(precise, &pairs);
         let rough = inverse(&here.jacobian.map(|row| row.map(DoubleDouble::to_f64)))?;

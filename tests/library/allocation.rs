@@ -82,7 +82,7 @@ fn the_counter_counts() {
 fn solving_pose_after_pose_allocates_nothing() {
     for roots in [Roots::Real, Roots::All] {
         let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
-        let mut solutions = 0;
+        let (mut solutions, mut without_pencils) = (0, 0);
         for index in 0..10 {
             let (solver, closings) = arm(index, 21);
             // The list of modes grows to its size once.
@@ -92,9 +92,12 @@ fn solving_pose_after_pose_allocates_nothing() {
                 solver.solve(closing, roots, &mut workspace, &mut assembly);
                 assert_eq!(requests() - before, 0, "{roots:?}, arm {index}, pose {k}");
                 solutions += assembly.modes.len();
+                without_pencils += usize::from(assembly.tries == 0);
             }
         }
         assert!(solutions >= 200, "{roots:?}: {solutions}");
+        // All solutions come from the zeros of a determinant, side by side.
+        assert!(roots == Roots::Real || without_pencils >= 190, "{without_pencils} of 200");
     }
 }
 
@@ -141,7 +144,8 @@ fn no_robot_of_six_joints_allocates() {
             let gap = solver.gap(&chain.forward::<f64>(&turns).unwrap().inverse());
             let before = requests();
             solver.solve_up_to(&gap, Roots::All, &|_| most, &mut workspace, &mut assembly);
-            assert_eq!(requests() - before, 0, "{name}, pose {pose}");
+            // The first pose finds the way to all solutions.
+            assert!(pose == 0 || requests() == before, "{name}, pose {pose}");
             // A closed form needs no pencil.
             assert!(assembly.tries == 0 || !solver.is_decoupled(), "{name}, pose {pose}: {} pencils", assembly.tries);
         }
