@@ -259,6 +259,7 @@ fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
 mod tests {
     use super::*;
     use crate::algebra::double_double::DoubleDouble;
+    use crate::algebra::ring::Ring;
     use crate::certify::closure_zeros::EnclosedRows;
     use crate::closure::half_angle::half_angle_form;
     use crate::elimination::brackets;

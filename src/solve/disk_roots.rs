@@ -177,7 +177,7 @@ mod tests {
             for found in found.map(|found| found.expect("simple roots are found")) {
                 assert_eq!(found.count, DEGREE - real_pairs);
                 for [q, _] in &zeros[real_pairs..] {
-                    let w = (Complex::i() * q).exp();
+                    let w = (Complex::<f64>::i() * q).exp();
                     let near = |k: usize| (Complex::new(found.re[k], found.im[k]) - w).norm() < 1e-6 * w.norm();
                     assert_eq!((0..found.count).filter(|&k| near(k)).count(), 1, "{w} of {real_pairs}");
                 }
