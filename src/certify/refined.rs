@@ -304,7 +304,11 @@ impl Convergence {
     const ROUNDING: f64 = 1e-12;
 
     fn of(data: Option<Data>) -> Self {
-        Self { before: f64::INFINITY, may_stall: true, settled: if data.is_some() { STORED_SETTLED } else { EXACT_SETTLED } }
+        Self {
+            before: f64::INFINITY,
+            may_stall: true,
+            settled: if data.is_some() { STORED_SETTLED } else { EXACT_SETTLED },
+        }
     }
 
     /// Returns whether a step of this size was the last one; `None` where the method does not converge.
