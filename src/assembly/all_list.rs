@@ -224,8 +224,10 @@ impl Task<'_> {
     fn list_lanes(&mut self, found: &Found, count: usize, width: usize, left: &mut Left) {
         for lane in 0..count.min(width) {
             let Some(mode) = found.mode(lane) else {
-                left.starts[left.count] = (found.unknowns(lane), found.is_real());
-                left.count += 1;
+                if let Some(start) = left.starts.get_mut(left.count) {
+                    *start = (found.unknowns(lane), found.is_real());
+                    left.count += 1;
+                }
                 continue;
             };
             if !mode.real {
