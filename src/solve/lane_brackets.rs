@@ -179,6 +179,7 @@ impl LaneEntries {
 
 /// The place of the pair of columns i < j among all fifteen.
 #[inline(always)]
+#[must_use]
 pub const fn pair(i: usize, j: usize) -> usize {
     5 * i - i * i.saturating_sub(1) / 2 + j - i - 1
 }
