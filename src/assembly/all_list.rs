@@ -25,6 +25,8 @@ use pulp::{Arch, Simd, WithSimd};
 const NOISE: f64 = 1e-14;
 /// The leading coefficient in parts of the largest value below which some zeros are at infinity: of general arms it is 1e-4 as a rule.
 const LEADING: f64 = 1e-9;
+/// Closure errors above this are none of rounding: Newton's steps, all with the inverse of the first place, have not arrived.
+const ARRIVED: f64 = 4e-15;
 /// Values count no less than this part of the largest one in their mean: no product of them is 0.
 const LEAST: f64 = 1e-12;
 
@@ -223,7 +225,7 @@ impl Task<'_> {
     #[inline(always)]
     fn list_lanes(&mut self, found: &Found, count: usize, width: usize, left: &mut Left) {
         for lane in 0..count.min(width) {
-            let Some(mode) = found.mode(lane) else {
+            let Some(mode) = found.mode(lane).filter(|mode| mode.residual < ARRIVED) else {
                 if let Some(start) = left.starts.get_mut(left.count) {
                     *start = (found.unknowns(lane), found.is_real());
                     left.count += 1;

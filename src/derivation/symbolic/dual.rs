@@ -48,16 +48,27 @@ pub(in crate::internal::derivation) fn dualised<R: Ring, const RHO: usize, const
     }
 }
 
+/// Returns the axes of the rotations before and behind the link of a translation, in its frame.
+fn beside<R: Ring, const RHO: usize, const TAU: usize>(form: &LinkForm<R, RHO, TAU>, slide: &Slide<R>) -> [Vector<R>; 2] {
+    let next = std::array::from_fn(|i| form.links[slide.link].rotation[i][2].clone());
+    [[R::zero(), R::zero(), R::one()], next]
+}
+
 /// Returns the rotation along whose axis each translation runs; `None` if one runs along none.
 pub(in crate::internal::derivation) fn axes<R: Ring, const RHO: usize, const TAU: usize>(form: &LinkForm<R, RHO, TAU>) -> Option<[usize; TAU]> {
     let axis = |slide: &Slide<R>| {
-        let own = [R::zero(), R::zero(), R::one()];
-        let next: Vector<R> = std::array::from_fn(|i| form.links[slide.link].rotation[i][2].clone());
+        let [own, next] = beside(form, slide);
         let along = |axis: &Vector<R>| cross(&slide.direction, axis).iter().all(Ring::is_zero);
         if along(&own) { Some(slide.link) } else { along(&next).then_some((slide.link + 1) % RHO) }
     };
     let found = form.slides.each_ref().map(axis);
     found.iter().all(Option::is_some).then(|| found.map(Option::unwrap_or_default))
+}
+
+/// Returns whether a translation runs against the axis along which it runs, as behind a twist of pi.
+fn runs_back<R: Ring>(form: &LinkForm<R, 3, 3>, slide: &Slide<R>, axis: usize) -> bool {
+    let axis = &beside(form, slide)[usize::from(slide.link != axis)];
+    slide.direction.iter().zip(axis).all(|(x, y)| x.add(y).is_zero())
 }
 
 /// Returns, for a loop whose two translations run along the axes of one link, the link opposite to it.
@@ -304,7 +315,8 @@ pub(super) fn three_translations(
             outcome.equations.push((name, primitive(&sum(&[v0, v1, v2], &monomials))));
         }
         used.push(symbols.label(unknown).to_owned());
-        let numerator = sum(&[e0, e1, e2], &monomials).neg();
+        let numerator = sum(&[e0, e1, e2], &monomials);
+        let numerator = if runs_back(form, &form.slides[at], at) { numerator } else { numerator.neg() };
         let variable = Symbols::variable(form.slides[at].unknown);
         outcome.translations.push(Quotient { variable, numerator, denominator });
     }

@@ -136,6 +136,31 @@ fn equations_without_finite_roots_hold_where_the_angle_is_pi() {
     assert!(found.largest < 1e-12, "{:e}", found.largest);
 }
 
+/// Behind a twist of pi a translation runs against the axis of the rotation before it.
+#[test]
+fn translations_behind_a_twist_of_pi_have_their_sign() {
+    let text = r#"
+        [mechanism]
+        kind = "loop"
+        convention = "dh"
+        joints = [
+            { type = "C", a = 0, tan_half_alpha = 1, d0 = 0 },
+            { type = "R", a = 0, tan_half_alpha = "inf", d = 0 },
+            { type = "P", a = 0, tan_half_alpha = 0, d0 = 0, tan_half_theta = 0 },
+            { type = "R", a = 0, tan_half_alpha = "1/2", d = 0 },
+            { type = "C", a = 1, tan_half_alpha = 1, d0 = 0 },
+        ]
+        [[input]]
+        joint = 4
+        tan_half = 0
+    "#;
+    let entry = load_text(text, "any.toml", Format::Toml, &Options::default()).unwrap();
+    let derivation = derive_symbolic(&entry, &entry.cases[0], &["a1".to_owned(), "alpha1".to_owned()]).unwrap();
+    assert_eq!(derivation.translations.len(), 3);
+    let found = derivation.substituted(&entry, &entry.cases[0]).unwrap();
+    assert!(found.solutions == 2 && found.largest < 1e-12, "{found:?}");
+}
+
 /// The translations lie in a plane wherever the rotations close: the polynomial of the numbers has lost its roots.
 #[test]
 fn roots_lost_at_the_numbers_are_no_fault_of_the_symbols() {
