@@ -17,8 +17,9 @@ use pulp::Arch;
 use std::cell::LazyCell;
 
 /// Numbers of 192 bits. A pose of doubles may be 1e-16 from a singular one: then a certificate compares squares of 1e16 with a
-/// rounding, and 1e-32 of double-double numbers is not small enough.
-pub type Crowded = LongNumber<3>;
+/// rounding, and 1e-32 of double-double numbers is not small enough. In a browser they are those of 384 bits that are there anyway: the page
+/// is smaller.
+pub type Crowded = LongNumber<{ if cfg!(target_arch = "wasm32") { 6 } else { 3 } }>;
 /// A loop of exact constants, rounded once.
 type Exact = ClosedLoop<DoubleDouble>;
 /// The same, made where it is first asked for.

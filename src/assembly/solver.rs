@@ -460,7 +460,9 @@ impl Solver {
 
     /// Returns the way to all solutions side by side, if there is one and no closed form is faster.
     pub(super) fn all_list(&self) -> Option<&AllList> {
-        if self.structural_rank < 6 || self.spherical.is_some() || self.decoupled.is_some() {
+        // Pages in a browser ask for real solutions first, and are smaller without it.
+        let is_left_out = cfg!(target_arch = "wasm32");
+        if is_left_out || self.structural_rank < 6 || self.spherical.is_some() || self.decoupled.is_some() {
             return None;
         }
         let places = || -> Vec<ClosedLoop<f64>> { (0..PLACES_OF_ALL).map(|turns| self.at_any_place(turns)).collect() };
