@@ -14,7 +14,8 @@ use rug::Rational;
 /// use rug::Rational;
 ///
 /// let of = |coefficients: &[i32]| Univariate::new(coefficients.iter().copied().map(Rational::from).collect());
-/// assert_eq!(fewest_conjugates(&of(&[-2, 0, 0, 0, 1])), 4);
+/// // The fifth roots of unity but 1.
+/// assert_eq!(fewest_conjugates(&of(&[1, 1, 1, 1, 1])), 4);
 /// // (x^2 + 1)(x^2 + 2)
 /// assert_eq!(fewest_conjugates(&of(&[2, 0, 3, 0, 1])), 2);
 /// assert_eq!(fewest_conjugates(&of(&[-1, 0, 1])), 1);
