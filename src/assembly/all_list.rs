@@ -242,8 +242,9 @@ impl Task<'_> {
 
 #[cfg(test)]
 mod tests {
-    use crate::assembly::{Assembly, Roots, Solver, Workspace, distance};
-    use crate::kinematics::closed_loop::{OpenLoop, Variable};
+    use crate::assembly::side_by_side::tests::prepared;
+    use crate::assembly::{Assembly, Roots, Workspace, distance};
+    use crate::kinematics::closed_loop::Variable;
     use crate::kinematics::motion::Motion;
     use rand::{Rng, SeedableRng};
     use rand_chacha::ChaCha8Rng;
@@ -262,15 +263,6 @@ mod tests {
                 _ => {}
             }
             Motion { translation: [a, 0.0, d], ..Motion::rotation_x(twist.cos(), twist.sin()) }
-        })
-    }
-
-    fn prepared(links: &[Motion<f64>; 6]) -> Solver {
-        Solver::prepare(&OpenLoop {
-            variables: UNKNOWNS,
-            constants: std::array::from_fn(|k| links[k].clone()),
-            before_gap: links[5].clone(),
-            after_gap: Motion::identity(),
         })
     }
 

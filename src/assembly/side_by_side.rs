@@ -90,7 +90,7 @@ impl WithSimd for SideBySide<'_> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use crate::algebra::double_double::DoubleDouble;
     use crate::assembly::{Assembly, Crowded, Roots, Rounded, Solver, Workspace, distance};
     use crate::certify::refined_certificate;
@@ -103,7 +103,7 @@ mod tests {
 
     const UNKNOWNS: [Variable; 6] = [Variable::Rotation; 6];
 
-    fn prepared(links: &[Motion<f64>; 6]) -> Solver {
+    pub fn prepared(links: &[Motion<f64>; 6]) -> Solver {
         Solver::prepare(&OpenLoop {
             variables: UNKNOWNS,
             constants: std::array::from_fn(|k| links[k].clone()),

@@ -88,7 +88,7 @@ fn real_points() -> usize {
 }
 
 #[test]
-#[ignore = "needs Python with SymPy"]
+#[ignore = "needs Python with SymPy: cargo test --test program foreign:: -- --ignored"]
 fn sympy_finds_the_same_resultant() {
     let python = program("python3", "LOOPROOT_PYTHON");
     let script = export(Format::Sympy)
@@ -99,7 +99,7 @@ fn sympy_finds_the_same_resultant() {
 }
 
 #[test]
-#[ignore = "needs Singular"]
+#[ignore = "needs Singular: cargo test --test program foreign:: -- --ignored"]
 fn singular_finds_the_same_resultant() {
     let mut singular = program("Singular", "LOOPROOT_SINGULAR");
     singular.arg("-q");

@@ -25,7 +25,7 @@ pub(super) struct Parallel<'a, R> {
     direction: [R; 3],
     /// The place that it has to reach.
     target: [R; 3],
-    /// That of heights and that of directions.
+    /// The equation of heights, then the equation of directions.
     equations: [Equation<R>; 2],
     /// The constant behind F.
     last: Motion<R>,
