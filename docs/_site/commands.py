@@ -110,6 +110,11 @@ def commands(page: str) -> list[Command]:
     return found
 
 
+def files(page: str) -> dict[str, str]:
+    """The files that a page shows: the first line of such a block is a comment with the name alone."""
+    return dict(re.findall(r"^```toml\n# (\w+\.toml)\n(.*?)^```", (ROOT / page).read_text(), re.M | re.S))
+
+
 def others(page: str) -> list[str]:
     """Lines of shell that no check is known to run."""
     faults = []
@@ -168,6 +173,9 @@ def main() -> int:
     for name, text in FILES.items():
         (place / name).write_text(text)
     pages = PAGES + [str(path.relative_to(ROOT)) for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*.md"))]
+    for page in pages:
+        for name, text in files(page).items():
+            (place / name).write_text(text)
     found = [command for page in pages for command in commands(page)]
     chosen = [command for command in found if not any(word in command.text for word in LEFT_OUT)]
     # Commands of one page follow each other: one may read what another has written.
