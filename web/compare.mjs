@@ -23,6 +23,8 @@ const NEAR = 1e-8;
 
 /** Entries in one process: Node 20 was seen to end with a segmentation fault after some hundred instances of a module. */
 const BATCH = 20;
+/** Entries that take longer are compared once. */
+const KEPT_MS = 3000;
 
 const [native, file, ...wanted] = process.argv.slice(2);
 if (!native || !file) {
@@ -38,19 +40,47 @@ function nativeRun(args) {
   return { code: status, stdout, stderr };
 }
 
-async function wasmRun(args) {
+/** Runs commands one after the other in one program, as a page does: the first begins it. */
+async function wasmRuns(commands) {
   const [out, err] = ['out', 'err'].map((name) => join(folder, name));
   const [stdout, stderr] = [out, err].map((path) => openSync(path, 'w'));
-  const wasi = new WASI({ version: 'preview1', args: ['looproot', ...args], env: {}, stdout, stderr, returnOnExit: true });
-  const instance = await WebAssembly.instantiate(module, wasi.getImportObject());
-  let code;
-  try {
-    code = wasi.start(instance);
-  } catch (error) {
-    code = String(error);
+  const args = ['looproot'];
+  const wasi = new WASI({ version: 'preview1', args, env: {}, stdout, stderr, returnOnExit: true });
+  const imports = wasi.getImportObject();
+  // The arguments of the command that runs, in the place of those of the process.
+  const text = () => args.map((word) => new TextEncoder().encode(`${word}\0`));
+  const memory = () => new DataView(instance.exports.memory.buffer);
+  imports.wasi_snapshot_preview1.args_sizes_get = (count, size) => {
+    memory().setUint32(count, args.length, true);
+    memory().setUint32(size, text().reduce((sum, word) => sum + word.length, 0), true);
+    return 0;
+  };
+  imports.wasi_snapshot_preview1.args_get = (list, at) => {
+    let next = at;
+    text().forEach((word, k) => {
+      memory().setUint32(list + 4 * k, next, true);
+      new Uint8Array(memory().buffer).set(word, next);
+      next += word.length;
+    });
+    return 0;
+  };
+  const instance = await WebAssembly.instantiate(module, imports);
+  const ended = [];
+  let [printed, said] = [0, 0];
+  for (const [k, command] of commands.entries()) {
+    args.splice(1, args.length, ...command);
+    let code;
+    try {
+      code = k ? instance.exports.again() : wasi.start(instance);
+    } catch (error) {
+      code = String(error);
+    }
+    const [whole, told] = [out, err].map((path) => readFileSync(path));
+    ended.push({ code, stdout: whole.subarray(printed).toString(), stderr: told.subarray(said).toString() });
+    [printed, said] = [whole.length, told.length];
   }
   [stdout, stderr].forEach(closeSync);
-  return { code, stdout: readFileSync(out, 'utf8'), stderr: readFileSync(err, 'utf8') };
+  return ended;
 }
 
 /** How far two values of a variable are apart; angles as points of the circle. */
@@ -137,10 +167,17 @@ for (const [kind, name] of chosen) {
   const first = performance.now();
   const other = nativeRun(args);
   const second = performance.now();
-  const own = await wasmRun(args);
+  const [own] = await wasmRuns([args]);
   inNative += second - first;
   inWasm += performance.now() - second;
-  const found = difference(own, other);
+  let found = difference(own, other);
+  // With a seed nothing is kept. Without one the third command finds what the second has prepared.
+  if (!found && verb === 'solve' && performance.now() - second < KEPT_MS) {
+    const plain = args.slice(0, -2);
+    const [, again, kept] = await wasmRuns([['--version'], plain, plain]);
+    found = difference(again, other) || difference(kept, other);
+    if (found) found += ', in the program of another command';
+  }
   if (found) {
     failed += 1;
     console.log(`${kind}/${name}: ${found}`);

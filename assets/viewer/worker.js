@@ -5,11 +5,11 @@
 //
 //      { rehearse: true, args, files }          while nobody asks    nothing
 //
-// A command has a memory of its own, which is thrown away: nothing is kept from one to the next, and a command that traps harms no
-// other. That of the next command is made while the page shows the last answer. A browser compiles quickly first and well later,
-// where a program runs often: a command that is rehearsed while nobody asks makes the answers to come three times as fast. The program asks for what a system offers by WASI
-// (wasi_snapshot_preview1); of that there is here what it uses: arguments, clocks, random numbers, and one folder of files that are
-// in memory.
+// The program begins once, and runs one command after the other: what it has read and prepared of a mechanism serves the next question
+// about it. A command that traps or ends the program harms no other, since a new program begins after it. A browser compiles quickly
+// first and well later, where a program runs often: a command that is rehearsed while nobody asks makes the answers to come three times
+// as fast. The program asks for what a system offers by WASI (wasi_snapshot_preview1); of that there is here what it uses: arguments,
+// clocks, random numbers, and one folder of files that are in memory.
 'use strict';
 
 const [OK, BAD, EXISTS, INVALID, MISSING, UNKNOWN] = [0, 8, 20, 28, 44, 52];
@@ -193,47 +193,56 @@ function system(args, files) {
   return own;
 }
 
-/** A program that has not begun, and the system that it will ask: `system` is set by the command. */
-async function instance(module) {
+/** A program that has begun, and the system that it asks: each command has its own. */
+async function begun(module) {
   const own = { system: null };
   const imports = {};
   for (const { module: space, name } of WebAssembly.Module.imports(module)) {
     imports[space] ??= {};
     imports[space][name] = (...values) => (own.system.calls[name] ? own.system.calls[name](...values) : UNKNOWN);
   }
-  own.program = await WebAssembly.instantiate(module, imports);
+  own.exports = (await WebAssembly.instantiate(module, imports)).exports;
+  // Its main function has to end before the next command.
+  run(own, '_start', ['--version'], {});
   return own;
 }
 
-/** Runs one command to its end. */
-function run(instance, args, files) {
+/** A program whose memory has grown to this many bytes is followed by a new one: memory never becomes smaller. */
+const LARGE = 1 << 28;
+
+/** Runs one command to its end, by an export of the program. `whole` says whether the program can run another one. */
+function run(program, name, args, files) {
   const own = system(args, files);
-  instance.system = own;
-  own.memory = instance.program.exports.memory;
-  let code = 0;
+  own.memory = program.exports.memory;
+  program.system = own;
+  const answer = (code, whole, more = '') => ({ code, stdout: own.stdout.text, stderr: own.stderr.text + more, whole });
   try {
-    instance.program.exports._start();
+    return answer(program.exports[name](), own.memory.buffer.byteLength < LARGE);
   } catch (error) {
-    if (!(error instanceof Exit)) return { code: 70, stdout: own.stdout.text, stderr: `${own.stderr.text}${error}\n` };
-    code = error.code;
+    return error instanceof Exit ? answer(error.code, false) : answer(70, false, `${error}\n`);
   }
-  return { code, stdout: own.stdout.text, stderr: own.stderr.text };
 }
 
 let module = null;
 /** The program of the next command. */
-let next = null;
+let program = null;
 /** The number of commands that were asked for. */
 let asked = 0;
 /** How often a command is rehearsed, and for how many milliseconds: after thirty answers all of it is compiled well. */
 const [REHEARSALS, REHEARSED] = [30, 1000];
 
+/** Runs one command, and begins another program where this one cannot go on. */
+async function answered({ args, files }) {
+  const { whole, ...answer } = run(await program, 'again', args, files || {});
+  if (!whole) program = begun(module);
+  return answer;
+}
+
 /** Runs a command again and again until another one is asked for. */
-async function rehearse({ args, files }) {
+async function rehearse(command) {
   const [before, start] = [asked, performance.now()];
   for (let k = 0; k < REHEARSALS && performance.now() - start < REHEARSED; k += 1) {
-    run(await (next || instance(module)), args, files || {});
-    next = instance(module);
+    await answered(command);
     // What was asked meanwhile comes first.
     await new Promise((resolve) => { setTimeout(resolve); });
     if (asked !== before) return;
@@ -252,7 +261,8 @@ self.onmessage = async ({ data }) => {
   if (data.module) {
     try {
       module = await load(data);
-      next = instance(module);
+      program = begun(module);
+      await program;
       self.postMessage({ ready: true, ms: performance.now() - start });
     } catch (error) {
       self.postMessage({ ready: false, error: String(error) });
@@ -264,10 +274,6 @@ self.onmessage = async ({ data }) => {
     return;
   }
   asked += 1;
-  // Another command may come before this one has its program.
-  const own = next || instance(module);
-  next = null;
-  const answer = run(await own, data.args, data.files || {});
+  const answer = await answered(data);
   self.postMessage({ id: data.id, ...answer, ms: performance.now() - start });
-  next ||= instance(module);
 };

@@ -1,5 +1,6 @@
 //! The command line of looproot.
 
+mod again;
 mod command;
 
 use clap::Parser;
@@ -8,9 +9,13 @@ use command::exit::Exit;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let arguments = match Arguments::try_parse() {
-        Ok(arguments) => arguments,
-        Err(misuse) => return command::exit::misuse(&misuse).into(),
-    };
-    arguments.verb.run().unwrap_or_else(|fault| Exit::from_fault(&fault)).into()
+    run().into()
+}
+
+/// Runs the command that the arguments of the process give.
+fn run() -> Exit {
+    match Arguments::try_parse() {
+        Ok(arguments) => arguments.verb.run().unwrap_or_else(|fault| Exit::from_fault(&fault)),
+        Err(misuse) => command::exit::misuse(&misuse),
+    }
 }

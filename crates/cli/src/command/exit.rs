@@ -67,6 +67,18 @@ impl Exit {
         }
     }
 
+    /// Returns the number with which the process ends.
+    pub fn code(self) -> u8 {
+        match self {
+            Self::Complete => 0,
+            Self::Misuse => 1,
+            Self::NotProved => 2,
+            Self::Unreachable => 3,
+            Self::Unsupported => 4,
+            Self::Interrupted => 130,
+        }
+    }
+
     /// Returns the code of an error.
     pub fn of_error(error: &Error) -> Self {
         if error.exit_code() == 4 { Self::Unsupported } else { Self::Misuse }
@@ -90,14 +102,7 @@ impl Exit {
 
 impl From<Exit> for ExitCode {
     fn from(exit: Exit) -> Self {
-        Self::from(match exit {
-            Exit::Complete => 0,
-            Exit::Misuse => 1,
-            Exit::NotProved => 2,
-            Exit::Unreachable => 3,
-            Exit::Unsupported => 4,
-            Exit::Interrupted => 130,
-        })
+        Self::from(exit.code())
     }
 }
 

@@ -81,7 +81,8 @@ pub fn run(
         is_whole = !stop.load(Ordering::Relaxed);
         Ok(is_whole)
     };
-    ordered(&pool(options.threads)?, jobs, || (), work, take)?;
+    let pool = pool(options.threads)?;
+    ordered(&pool, jobs, || (), work, take)?;
     report.end()?;
     let has_bad_rows = report.counts[2] > 0;
     Ok(if !is_whole {

@@ -23,6 +23,7 @@ pub mod follow;
 pub mod help;
 pub mod instant;
 mod inverse;
+mod kept;
 pub mod linkage;
 pub mod linkage_derive;
 pub mod linkage_sweep;

@@ -3,12 +3,14 @@
 use super::arguments::{Colour, OutputOptions};
 use super::exit::Fault;
 use looproot::internal::error::Error;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use serde_json::Value;
 use std::cell::RefCell;
 use std::fs::File;
 use std::io::{BufWriter, IsTerminal, Write, stdout};
 use std::path::Path;
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// Standard output or a file, and whether to colour it.
 pub struct Output {
@@ -99,14 +101,27 @@ pub fn print(text: &str) -> Result<(), Fault> {
 }
 
 /// Returns a thread pool; `None` stands for all cores.
-pub fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, Fault> {
-    let builder = rayon::ThreadPoolBuilder::new();
-    // Without thread support, as in a browser, the current thread does all the work.
-    let builder = if cfg!(target_family = "wasm") {
-        builder.num_threads(1).use_current_thread()
-    } else {
-        builder.num_threads(threads.unwrap_or(0))
-    };
-    let pool = builder.build();
+#[cfg(not(target_family = "wasm"))]
+pub fn pool(threads: Option<usize>) -> Result<Arc<ThreadPool>, Fault> {
+    started(ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)))
+}
+
+/// Returns the pool of the current thread, which does all the work where there are no others, as in a browser. There can be only one of
+/// it, and further commands of the process use it again.
+#[cfg(target_family = "wasm")]
+pub fn pool(_threads: Option<usize>) -> Result<Arc<ThreadPool>, Fault> {
+    thread_local! {
+        static POOL: RefCell<Option<Arc<ThreadPool>>> = const { RefCell::new(None) };
+    }
+    if let Some(pool) = POOL.with_borrow(Clone::clone) {
+        return Ok(pool);
+    }
+    let pool = started(ThreadPoolBuilder::new().num_threads(1).use_current_thread())?;
+    POOL.set(Some(Arc::clone(&pool)));
+    Ok(pool)
+}
+
+fn started(builder: ThreadPoolBuilder) -> Result<Arc<ThreadPool>, Fault> {
+    let pool = builder.build().map(Arc::new);
     pool.map_err(|error| Error::Invalid(format!("cannot start the threads: {error}")).into())
 }

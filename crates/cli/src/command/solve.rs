@@ -7,6 +7,7 @@ use super::certificates::Certificates;
 use super::demand::demand;
 use super::exit::{Exit, Fault, complain, unexpected};
 use super::follow::Follow;
+use super::kept::{Prepared, Source, keep};
 use super::order::Order;
 use super::output::{Output, pool};
 use super::rows::{self, Row};
@@ -52,14 +53,22 @@ pub fn run(options: &SolveOptions) -> Result<Exit, Fault> {
 pub fn run_to(options: &SolveOptions, open: impl FnOnce() -> Result<Output, Fault>) -> Result<Exit, Fault> {
     let chains = if options.poses.is_some() { Chains::Swept } else { options.asked.chains() };
     let read = Options { chains, ..options.read.options() };
-    let mut entry = match load_solvable(&options.mechanism, &read)? {
-        Any::Entry(entry) => *entry,
-        Any::Calculus(file) => return calculus::run(options, &file, open),
-        Any::Linkage(file) => return super::linkage::run(options, &file, open()?),
-        Any::Sphere(file) => return super::sphere::run(options, &file, open()?),
-        Any::Space(file) => return super::space::run(options, &file, open()?),
-        other => return Err(unexpected(&options.mechanism, other.kind(), "an arm, a loop or a platform with numbers")),
+    let source = Source::of(options, &read);
+    let (mut entry, kept) = match source.as_ref().and_then(Source::take) {
+        Some(kept) => (kept.entry, Some(kept.prepared)),
+        None => match load_solvable(&options.mechanism, &read)? {
+            Any::Entry(entry) => (*entry, None),
+            Any::Calculus(file) => return calculus::run(options, &file, open),
+            Any::Linkage(file) => return super::linkage::run(options, &file, open()?),
+            Any::Sphere(file) => return super::sphere::run(options, &file, open()?),
+            Any::Space(file) => return super::space::run(options, &file, open()?),
+            other => {
+                let expected = "an arm, a loop or a platform with numbers";
+                return Err(unexpected(&options.mechanism, other.kind(), expected));
+            }
+        },
     };
+    let cases = if source.is_some() { entry.cases.clone() } else { Vec::new() };
     if options.inverse {
         return super::inverse::run(options, &mut entry, open);
     }
@@ -87,14 +96,17 @@ pub fn run_to(options: &SolveOptions, open: impl FnOnce() -> Result<Output, Faul
     let total = reader.is_none().then_some(wanted.len());
     let mut report = Report::new(options, &entry, keys, (stage, order), total, open()?);
     report.answers = answer_file(options, &entry, &report.labels)?;
-    let prepared = Mechanism::prepare_for(&entry, &demand).map(|mechanism| mechanism.with_tolerance(tolerance));
+    let prepared = Prepared::or_prepare(kept, &entry, &demand).map(|mechanism| mechanism.with_tolerance(tolerance));
+    let mut solved = None;
     let exit = match prepared {
         Ok(mechanism) => {
             let listed = wanted.map(Job::Listed);
             let jobs = listed.chain((1..).zip(rows.into_iter().flatten()).map(|(number, row)| Job::Row(number, row)));
             let lines = report.lines();
             let work = Work { options, entry: &entry, mechanism: &mechanism, reader, lines };
-            work.solve(jobs, total, &mut report)?
+            let exit = work.solve(jobs, total, &mut report)?;
+            solved = Some(Prepared::new(mechanism, demand, &entry));
+            exit
         }
         // The document of a mechanism that cannot be solved reports that for each case.
         Err(error) if error.unsupported().is_some() && report.is_json() => {
@@ -107,9 +119,13 @@ pub fn run_to(options: &SolveOptions, open: impl FnOnce() -> Result<Output, Faul
             }
             Exit::Unsupported
         }
+        Err(Error::Invalid(message)) => return Err(Error::Invalid(format!("{}: {message}", options.mechanism)).into()),
         Err(error) => return Err(in_place(error, &options.mechanism, &entry).into()),
     };
     report.close()?;
+    if let (Some(source), Some(prepared)) = (source, solved) {
+        keep(source, entry, cases, prepared);
+    }
     Ok(exit)
 }
 
