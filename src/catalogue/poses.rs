@@ -100,8 +100,9 @@ impl<'a> PoseRows<'a> {
             let message = format!("found {found} values, expected {expected}");
             return Err(Error::Invalid(message).at(self.path, line));
         }
-        if let Some((placement, typed)) = self.of_decimals(&cells) {
-            let case = of_design(self.design, placement, line);
+        if let Some((placement, warning, typed)) = self.of_decimals(&cells) {
+            let mut case = of_design(self.design, placement, line);
+            case.warnings.extend(warning);
             return Ok(Case { typed: (!self.are_doubles).then_some(typed), ..case });
         }
         let mut values = vec![String::new(); cells.len()];
@@ -115,20 +116,20 @@ impl<'a> PoseRows<'a> {
         Ok(case)
     }
 
-    /// Reads a pose in plain decimals, which need no exact numbers, and its tolerance.
-    fn of_decimals(&self, cells: &[&str]) -> Option<(Placement, Tolerance)> {
+    /// Reads a pose in plain decimals, which need no exact numbers, with its warning and its tolerance.
+    fn of_decimals(&self, cells: &[&str]) -> Option<(Placement, Option<String>, Tolerance)> {
         let mut values = [Decimal::default(); 12];
         for (((place, _), power), cell) in self.columns.iter().zip(self.powers.as_ref()?).zip(cells) {
             values[*place] = Decimal::read(cell)?.shifted(*power);
         }
-        let placement = match self.form {
+        let (placement, warning) = match self.form {
             Form::Quaternion => {
                 let [x, y, z, quaternion @ ..] = values.first_chunk::<7>()?;
                 Placement::of_rounded_quaternion(quaternion, &[*x, *y, *z])?
             }
             Form::Matrix => {
                 let row = |i: usize| [values[4 * i], values[4 * i + 1], values[4 * i + 2], values[4 * i + 3]];
-                Placement::of_rounded_matrix(&[row(0), row(1), row(2)])?
+                (Placement::of_rounded_matrix(&[row(0), row(1), row(2)])?, None)
             }
             Form::Angles | Form::Objects => return None,
         };
@@ -137,7 +138,7 @@ impl<'a> PoseRows<'a> {
             own.map(|k| values[k].last_digit()).fold(COARSEST, f64::min)
         };
         let factor = if self.form == Form::Quaternion { OF_QUATERNION } else { 1.0 };
-        Some((placement, Tolerance { length: least(true), angle: least(false) * factor }))
+        Some((placement, warning, Tolerance { length: least(true), angle: least(false) * factor }))
     }
 
     fn object(&self, text: &str, line: usize) -> Result<Case> {

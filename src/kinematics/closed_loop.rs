@@ -265,6 +265,12 @@ impl Layout {
 
     /// Returns the kind and the joint variable of each of the six unknowns, in loop order; `None` for virtual joints.
     fn order(&self) -> [(Variable, Option<usize>); 6] {
+        if self.idle.is_empty() {
+            // Every answer asks this of most arms and loops: no list is made.
+            let start = self.locked.map_or(0, |locked| locked + 1);
+            return std::array::from_fn(|k| (start + k) % self.variables.len())
+                .map(|at| (self.variables[at], Some(at)));
+        }
         let behind = |k: usize| self.idle.iter().filter(move |idle| idle.behind == k).map(|idle| (idle.variable, None));
         let joint = |k: usize| std::iter::once((self.variables[k], Some(k)));
         let order: Vec<_> = (0..self.variables.len()).flat_map(|k| joint(k).chain(behind(k))).collect();

@@ -17,7 +17,7 @@ use std::ops::Range;
 /// Working precision of projections, bits.
 const BITS: u32 = 192;
 /// A rotation further than this from every rotation is a mistake.
-const REFUSED: f64 = 3e-3;
+pub(super) const REFUSED: f64 = 3e-3;
 /// A rotation further than this from every rotation deserves a warning: it is more than f64 rounding.
 const NOTED: f64 = 1e-12;
 /// Bits of the quaternion of a rotation that is rounded to a rational one, and of the coordinates of its translation in parts
@@ -275,8 +275,13 @@ impl Placement {
             }
         };
         let placement = Self { defect, ..placed };
-        Ok((placement, noted(defect, "the norm of the quaternion is off by")))
+        Ok((placement, noted_norm(defect)))
     }
+}
+
+/// Returns the warning about a quaternion whose norm is this far from 1, where it deserves one.
+pub(super) fn noted_norm(defect: f64) -> Option<String> {
+    noted(defect, "the norm of the quaternion is off by")
 }
 
 /// The rows of a motion without the last one.

@@ -4,7 +4,7 @@ use super::chain::Placement;
 use super::decimal::{Decimal, whole};
 use super::exact_motion::{Datum, ExactMotion, QUATERNION_BITS};
 use super::motion::Motion;
-use super::placement::rotation_over;
+use super::placement::{REFUSED, noted_norm, rotation_over};
 use crate::algebra::double_double::DoubleDouble;
 use crate::algebra::ring::Ring;
 
@@ -44,21 +44,22 @@ impl Placement {
         Some(Self { defect, ..Self::in_both(exact, Motion { rotation, translation }) })
     }
 
-    /// The placement by a quaternion `[w, x, y, z]`, which is normalised, and a position. `None` where the length of the
-    /// quaternion is off by more than rounding: [`Placement::from_quaternion_position`] tells then.
+    /// The placement by a quaternion `[w, x, y, z]`, which is normalised, and a position, with the warning of
+    /// [`Placement::from_quaternion_position`]. `None` where the length of the quaternion is off by too much: that one tells then.
     #[must_use]
-    pub fn of_rounded_quaternion(quaternion: &[Decimal; 4], position: &[Decimal; 3]) -> Option<Self> {
+    pub fn of_rounded_quaternion(quaternion: &[Decimal; 4], position: &[Decimal; 3]) -> Option<(Self, Option<String>)> {
         let own = quaternion.map(Decimal::double_double);
         let square = sum(own.iter().map(|q| q.mul(q)));
-        // The length is off by half of what its square is.
-        let defect = halved(&square.sub(&DoubleDouble::one())).to_f64().abs();
-        if !(defect < ROUNDED) {
+        let above = square.sub(&DoubleDouble::one()).to_f64();
+        // sqrt(1 + x) - 1 without cancellation.
+        let defect = (above / (1.0 + (1.0 + above).sqrt())).abs();
+        if !(defect < REFUSED) {
             return None;
         }
         let rotation = rotation_over(own.each_ref())?;
         let motion = Motion { rotation, translation: position.map(Decimal::double_double) };
         let exact = ExactMotion::of(Datum::Quaternion(*quaternion, *position));
-        Some(Self { defect, ..Self::in_both(exact, motion) })
+        Some((Self { defect, ..Self::in_both(exact, motion) }, noted_norm(defect)))
     }
 
     /// The placement by a quaternion `[w, x, y, z]` of whole numbers over 2^60, which is normalised, and a position of finite
@@ -211,19 +212,27 @@ mod tests {
         for k in 0..200 {
             let mut quaternion: [f64; 4] = std::array::from_fn(|j| f64::from(5 * k + u32::try_from(j).unwrap()).cos());
             let length = quaternion.iter().map(|q| q * q).sum::<f64>().sqrt();
+            // As typed with all digits, with nine, and hardly known.
+            let scale = [1.0, 1.0 + 1e-9, 1.0 - 2e-3][k as usize % 3];
             for q in &mut quaternion {
-                *q /= length;
+                *q *= scale / length;
             }
             let (quaternion, position) = (quaternion.map(decimal), [0.1, -2.5, 3e-7].map(decimal));
-            let fast = Placement::of_rounded_quaternion(&quaternion, &position).unwrap();
+            let (fast, noted) = Placement::of_rounded_quaternion(&quaternion, &position).unwrap();
             let numbers = (quaternion.map(Decimal::number), position.map(Decimal::number));
             let (slow, warning) = Placement::from_quaternion_position(&numbers.0, &numbers.1).unwrap();
-            assert!(warning.is_none());
+            assert_eq!(warning, noted);
             assert_eq!(fast.exact, slow.exact, "{k}");
             assert!(agree(&fast.float, &slow.float), "{k}");
-            assert!((fast.defect - slow.defect).abs() < 1e-20, "{k}");
+            assert!((fast.defect - slow.defect).abs() < 1e-20 + 1e-9 * slow.defect, "{k}");
             assert!(agree(&fast.inverse_in_f64().unwrap(), &slow.inverse_image().unwrap()), "{k}");
         }
+    }
+
+    #[test]
+    fn a_quaternion_of_another_length_is_refused() {
+        let quaternion = [1.004, 0.0, 0.0, 0.0].map(decimal);
+        assert!(Placement::of_rounded_quaternion(&quaternion, &[0.0; 3].map(decimal)).is_none());
     }
 
     #[test]

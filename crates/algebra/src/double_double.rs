@@ -93,6 +93,9 @@ impl Ring for DoubleDouble {
     fn is_zero(&self) -> bool {
         self.high == 0.0
     }
+    fn from_integer(n: i32) -> Self {
+        Self::from(f64::from(n))
+    }
     fn from_rational(q: &Rational) -> Option<Self> {
         let high = nearest_f64(q);
         let rest = Rational::from_f64(high).map_or(0.0, |h| nearest_f64(&(q - h)));

@@ -151,6 +151,10 @@ fn refuse_loop(entry: &Entry) -> Result<(), Error> {
     }
 }
 
+/// What the JSON of an answer and of each of its modes takes, as a rule: memory is then asked for once.
+const ANSWER_BYTES: usize = 1024;
+const MODE_BYTES: usize = 400;
+
 /// A problem to solve.
 enum Job {
     /// A case of the file, by its index.
@@ -263,7 +267,9 @@ impl<'a> Work<'a> {
         let curve = if self.options.derivatives { Some(InputCurve::of(self.entry, case)?) } else { None };
         let derivatives = curve.map(|curve| solution.modes.iter().map(|mode| curve.derivatives(mode)).collect());
         let text = self.lines.as_ref().and_then(|Lines { labels, view }| {
-            serde_json::to_string(&json::Answer { number, case, solution: &solution, labels, view }).ok()
+            let mut text = Vec::with_capacity(ANSWER_BYTES + MODE_BYTES * solution.modes.len());
+            serde_json::to_writer(&mut text, &json::Answer { number, case, solution: &solution, labels, view }).ok()?;
+            String::from_utf8(text).ok()
         });
         Ok(Answer { solution, derivatives, text })
     }

@@ -4,14 +4,18 @@ use rayon::ThreadPool;
 use std::collections::BTreeMap;
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Condvar, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
-/// Maximum number of jobs that a thread takes at a time: taking one costs a microsecond, solving a pose thirty.
-const BATCH: usize = 16;
+/// Maximum number of jobs that a thread takes at a time: a result has some kilobytes.
+const BATCH: usize = 128;
+/// A batch that takes less time than this is followed by a larger one, one of four times as much by a smaller one: waking the thread
+/// that takes the results costs some 10 us.
+const SHORT: Duration = Duration::from_micros(250);
 /// The first batches are smaller, so that few jobs are shared evenly.
 const GROWTH: usize = 8;
 /// Number of batches per thread begun ahead of the last one taken: one slow pose does not stop the others, and memory use
 /// stays bounded.
-const AHEAD: usize = 64;
+const AHEAD: usize = 32;
 
 /// The data that the threads share: the remaining jobs, and the number of results taken.
 struct Shared<I> {
@@ -105,6 +109,7 @@ fn run<J, R>(
     sender: &Sender<Batch<J, R>>,
     mut work: impl FnMut(&J) -> R,
 ) {
+    let mut fitting = 1;
     loop {
         let lock = shared.lock().unwrap_or_else(PoisonError::into_inner);
         let is_ahead = |own: &mut Shared<_>| !own.is_closed && own.begun >= own.reported + AHEAD * threads;
@@ -112,7 +117,7 @@ fn run<J, R>(
         if own.is_closed {
             return;
         }
-        let size = BATCH.min(1 + own.taken / (GROWTH * threads));
+        let size = fitting.min(1 + own.taken / (GROWTH * threads));
         let jobs: Vec<J> = own.jobs.by_ref().take(size).collect();
         if jobs.is_empty() {
             return;
@@ -121,11 +126,18 @@ fn run<J, R>(
         own.begun += 1;
         own.taken += jobs.len();
         drop(own);
+        let start = Instant::now();
         let done = jobs.into_iter().map(|job| {
             let result = work(&job);
             (job, result)
         });
-        if sender.send((number, done.collect())).is_err() {
+        let done = done.collect();
+        if start.elapsed() < SHORT {
+            fitting = BATCH.min(2 * fitting);
+        } else if start.elapsed() > 4 * SHORT {
+            fitting = fitting.div_ceil(2);
+        }
+        if sender.send((number, done)).is_err() {
             return;
         }
     }
