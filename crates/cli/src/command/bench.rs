@@ -14,7 +14,7 @@ use looproot::internal::benchmark::platform;
 use looproot::internal::benchmark::platform::accuracy::PlatformJob;
 use looproot::internal::benchmark::platform::sample::PlatformSet;
 use looproot::internal::benchmark::sample::{CHAINS, Set};
-use looproot::internal::benchmark::speed::{self, Timings};
+use looproot::internal::benchmark::speed::{self, StageTimes, Timings};
 use looproot::internal::benchmark::speed_loops::{self, ExactRow, LoopRow, LoopTimings, Loops, Spread};
 use looproot::internal::catalogue::entry::{Entry, Kind};
 use looproot::internal::catalogue::{Any, FrameworkFile, Options, builtin_any, builtin_names, moving_names};
@@ -293,8 +293,7 @@ fn measure_speed(options: &SpeedOptions) -> Result<Exit, Fault> {
 }
 
 fn stages_document(timings: &Timings) -> serde_json::Value {
-    let row =
-        |(name, median, least): &(&str, f64, f64)| json!({ "name": name, "median_us": median, "least_us": least });
+    let row = |StageTimes { name, median, mean, least }: &StageTimes| json!({ "name": name, "median_us": median, "mean_us": mean, "least_us": least });
     json!({ "stages": timings.rows.iter().map(row).collect::<Vec<_>>() })
 }
 
