@@ -55,9 +55,13 @@ pub struct Certificate {
 
 /// Roundings per step of the product, relative to its norms, which add up |re| and |im|: cosine and sine (4, complex ones
 /// 20), their use (3), the product (4), the stored constant (32), and a margin for second order.
-const ROUNDINGS: f64 = 70.0;
+pub(crate) const ROUNDINGS: f64 = 70.0;
 /// Margin on bounds that are themselves computed in f64.
-const MARGIN: f64 = 1.01;
+pub(crate) const MARGIN: f64 = 1.01;
+/// Half a unit in the last place of 1.
+pub(crate) const ROUNDOFF: f64 = f64::EPSILON / 2.0;
+/// A product of motions farther than this from the identity proves nothing: the bounds hold near E = I, to first order and a margin.
+pub(crate) const OFF_IDENTITY: f64 = 1e-3;
 
 /// Bounds the error of every entry of the computed closure, compared with the exact one of the mechanism as given. Holds
 /// near E = I.
@@ -125,14 +129,13 @@ pub fn certificate<S: Number>(at: &Closure<S>, approximate_inverse: &[Six<S>; 6]
 /// As [`certificate`], with the size of every unknown measured by its weight, at least 1: long translations need not be
 /// as exact as angles. `moved` bounds `|A (F' - F)|` for all F' within the errors of the constants, if a better bound than
 /// that by the norms is known.
-/// known than the norms tell.
 fn weighted_certificate<S: Number>(
     at: &Closure<S>,
     approximate_inverse: &[Six<S>; 6],
     weights: &Six<f64>,
     moved: Option<f64>,
 ) -> Option<Certificate> {
-    if !(off_identity(at) < 1e-3) {
+    if !(off_identity(at) < OFF_IDENTITY) {
         return None;
     }
     let row = |(row, weight): (&Six<S>, &f64)| row.iter().map(|x| x.bound()).sum::<f64>() / weight;

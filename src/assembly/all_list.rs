@@ -21,7 +21,7 @@ use crate::solve::newton::Six;
 use num_complex::Complex;
 use pulp::{Arch, Simd, WithSimd};
 
-/// The error of a value of the determinant in parts of the largest one, as a rule.
+/// A guess at the error of a value of the determinant, in parts of the largest one. No proof rests on it.
 const NOISE: f64 = 1e-14;
 /// The leading coefficient in parts of the largest value below which some zeros are at infinity: of general arms it is 1e-4 as a rule.
 const LEADING: f64 = 1e-9;

@@ -17,8 +17,8 @@ use pulp::Arch;
 use std::cell::LazyCell;
 
 /// Numbers of 192 bits. A pose of doubles may be 1e-16 from a singular one: then a certificate compares squares of 1e16 with a
-/// rounding, and 1e-32 of double-double numbers is not small enough. In a browser they are those of 384 bits that are there anyway: the page
-/// is smaller.
+/// rounding, and 1e-32 of double-double numbers is not small enough. In a browser numbers of 384 bits, which the page holds anyway, take
+/// their place, so that it is smaller.
 pub type Crowded = LongNumber<{ if cfg!(target_arch = "wasm32") { 6 } else { 3 } }>;
 /// A loop of exact constants, rounded once.
 type Exact = ClosedLoop<DoubleDouble>;

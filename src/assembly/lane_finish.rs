@@ -5,19 +5,16 @@
 
 use super::limits;
 use super::mode::{Hits, Mode, wrapped};
-use crate::certify::Certificate;
+use crate::certify::{Certificate, MARGIN, OFF_IDENTITY, ROUNDINGS, ROUNDOFF};
 use crate::kinematics::closed_loop::ClosedLoop;
 use crate::kinematics::motion::Motion;
-use crate::solve::lane_closure::{ANGLE_ERROR, Angular, LaneClosure, Pairs, lane_closure, lane_inverse, turned_back};
+use crate::solve::lane_closure::{
+    ANGLE_ERROR, Angular, LaneClosure, Pairs, ROOT_2, lane_closure, lane_inverse, turned_back,
+};
 use crate::solve::lanes::{Lanes, Mask, Row, WIDTH};
 use num_complex::Complex;
 use pulp::Simd;
 
-/// Half a unit in the last place of 1.
-const ROUNDOFF: f64 = f64::EPSILON / 2.0;
-/// As in [`certify`](crate::certify): roundings per step of the product, and the margin on bounds computed in f64.
-const ROUNDINGS: f64 = 70.0;
-const MARGIN: f64 = 1.01;
 /// Newton's steps with the inverse of the first place: each gains the digits that the first one gained.
 const STEPS: usize = 5;
 /// Closure errors below this are rounding, in parts of what errors grow by round the loop.
@@ -183,12 +180,12 @@ impl<'a> Finish<'a> {
         let x = radius * twists;
         let growth = x.fma(x, x + one);
         // The distance of complex pairs from the circle is in the error of every step.
-        let most_off = if N::REAL { OFF_CIRCLE } else { 1e-3 };
+        let most_off = if N::REAL { OFF_CIRCLE } else { OFF_IDENTITY };
         let is_sound = all.below(zero.like(f64::MAX)).and(off_circle.at_most(zero.like(most_off)));
         let is_proved = works(bounds, radius, bend * growth)
             .and(is_sound)
             .and(z0.below(zero.like(0.5)))
-            .and(off.below(zero.like(1e-3)))
+            .and(off.below(zero.like(OFF_IDENTITY)))
             .and((x.fma(x, x)).fma(zero.like(MARGIN), off).below(zero.like(0.5)));
         let mut isolation = (one - z0) / (bend * growth) * zero.like(0.9);
         let x = isolation * twists;
@@ -242,9 +239,6 @@ impl Found {
         })
     }
 }
-
-/// The root of 2 and a margin.
-const ROOT_2: f64 = 1.4143;
 
 /// How far the pairs are from the circle; NaN may be lost, which shows in the closure.
 #[inline(always)]

@@ -14,8 +14,8 @@ pub(super) type Pairs<S> = [(S, S); 6];
 /// Which candidates are proved.
 pub(super) type Done = [bool; MOST];
 
-/// Candidates that are polished and proved side by side, complex ones with their conjugates; which of them are is the result, real ones
-/// first.
+/// Candidates that are polished and proved side by side, complex ones with their conjugates. The result says which of them are proved: of
+/// the real ones, then of the complex ones.
 pub(super) struct SideBySide<'a> {
     /// The loop at a pose.
     pub finish: Finish<'a>,

@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 /// The half-angle tangents from which hidden angles are counted, tried in turn, in case an angle is pi.
 const SHIFTS: [(i32, i32); 2] = [(0, 1), (1, 4)];
 
-/// The kind of the item of a loop of fewer than six unknowns whose eliminant is that without added rotations.
+/// The kind of the item for a loop of fewer than six unknowns with an eliminant of its own, to which no rotations were added.
 pub(super) const OF_OWN: &str = "own-eliminant";
 
 /// Returns the bound stated in the proof of a certificate. The balls are those of its modes; the bound does not rest on them.

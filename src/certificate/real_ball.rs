@@ -63,8 +63,9 @@ impl Ring for RealBall {
         if self.is_zero() || other.is_zero() {
             return Self::zero();
         }
-        let (own, others) = (size(&self.middle), size(&other.middle));
-        // Sizes are rounded, and may have underflowed: the enlargement covers both.
+        // A size that is below all doubles counts as the least of them; the enlargement covers roundings.
+        let bound = |x: &Self| if x.middle.is_zero() { 0.0 } else { size(&x.middle).max(f64::MIN_POSITIVE) };
+        let (own, others) = (bound(self), bound(other));
         let spread = own * other.radius + others * self.radius + self.radius * other.radius;
         Self::with(Float::with_val(BITS, &self.middle * &other.middle), spread)
     }
@@ -87,8 +88,8 @@ impl Ring for RealBall {
 impl Field for RealBall {
     fn inverse(&self) -> Option<Self> {
         let least = self.at_least();
-        // |1/x - 1/m| <= r/(|x| |m|)
-        let spread = self.radius / (least * least);
+        // |1/x - 1/m| <= r/(|x| |m|). The square of a large pivot may be above all doubles, and nothing is divided by that.
+        let spread = self.radius / least / least;
         (least > 0.0).then(|| Self::with(self.middle.clone().recip(), spread))
     }
     fn pivot_size(&self) -> f64 {

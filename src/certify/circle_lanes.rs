@@ -1,12 +1,11 @@
 //! All zeros of a trigonometric polynomial on the circle, as in [`circle_zeros`](super::circle_zeros), eight arcs side by side.
 
+use super::ROUNDOFF;
 use super::circle_zeros::{ARCS, DEGREE, DEPTH, MOST, SAMPLES, SIZE, samples, weights};
 use crate::solve::lanes::{Lanes, Row, WIDTH};
 use pulp::Simd;
 use std::sync::LazyLock;
 
-/// Half a unit in the last place of 1.
-const ROUNDOFF: f64 = f64::EPSILON / 2.0;
 /// Most pieces that wait: with sixteen zeros at most, each halving leaves some twenty undecided.
 const WAITING: usize = 64;
 /// Steps towards a zero: the first ones halve the piece at worst, the others are Newton's.
@@ -52,7 +51,7 @@ static TABLES: LazyLock<Tables> = LazyLock::new(|| {
         std::array::from_fn(|k| match k {
             0 => 1.0 / SAMPLES as f64,
             1..=DEGREE => 2.0 / SAMPLES as f64 * (k as f64 * angle).cos(),
-            9..=16 => 2.0 / SAMPLES as f64 * ((k - DEGREE) as f64 * angle).sin(),
+            k if k <= 2 * DEGREE => 2.0 / SAMPLES as f64 * ((k - DEGREE) as f64 * angle).sin(),
             _ => 0.0,
         })
     });

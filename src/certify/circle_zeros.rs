@@ -6,6 +6,7 @@
 //! sign once, whatever the sign of the one between that is not sure, there is exactly one zero, a simple one (Descartes' rule). The
 //! statements hold for every trigonometric polynomial of degree 8 whose values at the samples are within the bounds.
 
+use super::ROUNDOFF;
 use crate::algebra::double_double::DoubleDouble;
 use crate::algebra::ring::{Field, Ring};
 use crate::solve::scalar::Number;
@@ -30,8 +31,6 @@ pub const SAMPLE_ERROR: f64 = f64::EPSILON;
 pub(super) const DEPTH: usize = 32;
 /// Number of intervals after which the zeros count as crowded: sixteen zeros a distance 1e-3 apart need 300.
 pub(super) const MOST: usize = 600;
-/// Half a unit in the last place of 1.
-const ROUNDOFF: f64 = f64::EPSILON / 2.0;
 
 /// The samples, and the Bernstein coefficients on the first arc.
 struct Tables {

@@ -8,22 +8,18 @@
 use super::circle_lanes::directions;
 use super::circle_zeros::{SAMPLE_ERROR, SAMPLES};
 use super::closure_zeros::CONSTANT;
+use super::{MARGIN, ROUNDOFF};
 use crate::algebra::bounded::{Bounded, Floating};
 use crate::closure::woernle_lee::MarkedLine;
 use crate::elimination::cut::Hidden;
 use crate::kinematics::motion::Motion;
 use crate::solve::lane_brackets::{BRACKETS, Brackets, LaneEntries, LaneForms, Minors, forms, minors, pair};
+use crate::solve::lane_closure::ROOT_3;
 use crate::solve::lanes::{Lanes, Row, WIDTH};
 use pulp::Simd;
 
-/// Half a unit in the last place of 1.
-const ROUNDOFF: f64 = f64::EPSILON / 2.0;
-/// The root of 3 and a margin: the length of three errors of the same size.
-const ROOT_3: f64 = 1.7321;
 /// The blocks of a marked line: 1, direction, point, two products, moment, reflected direction.
 const BLOCKS: [std::ops::Range<usize>; 7] = [0..1, 1..4, 4..7, 7..8, 8..9, 9..12, 12..15];
-/// What bounds leave out: products of two errors, and their own roundings.
-const MARGIN: f64 = 1.01;
 /// Motions less exact than this prove nothing: products of two errors would count.
 const INEXACT: f64 = 1e-3;
 
@@ -97,8 +93,8 @@ impl LaneRows {
 fn wrong_blocks(start: &Motion<f64>, longest: f64, off: f64) -> ([[f64; 2]; 7], bool) {
     let t = &start.translation;
     let computed = 1.01 * (t[0] * t[0] + t[1] * t[1] + t[2] * t[2]).sqrt();
-    // Nine entries of a rotation, of which the direction is a column, and three of a translation. If that of the closing transformation is
-    // turned back, so are its errors, and each entry is a sum of three products.
+    // Nine entries of a rotation, of which the direction is a column, and three of a translation. If the translation of the closing
+    // transformation is turned back, its errors are turned with it, and each entry is a sum of three products.
     let entry = CONSTANT * ROUNDOFF + off;
     let direction = ROOT_3 * entry;
     let point = ROOT_3 * (CONSTANT * ROUNDOFF * (1.0 + longest) + off) + (3.0 * entry + 6.0 * ROUNDOFF) * computed;

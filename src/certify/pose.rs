@@ -7,7 +7,7 @@
 //!
 //! The legs are those of the file: a bound on the effect of their rounding on the equations is part of Y and Z0.
 
-use super::Certificate;
+use super::{Certificate, MARGIN};
 use crate::closure::study::Leg;
 use crate::solve::pose::{Eight, Equations, parts};
 use crate::solve::scalar::Number;
@@ -17,8 +17,6 @@ use num_complex::Complex;
 const VALUE_ROUNDINGS: f64 = 32.0;
 /// Roundings of an entry of `A J`, relative to the sum of the sizes of its terms; those of J are among them.
 const PRODUCT_ROUNDINGS: f64 = 96.0;
-/// Margin on bounds that are themselves computed in f64.
-const MARGIN: f64 = 1.01;
 /// Roundings of the data in a value, relative to `w^2 + L^2 |x|^2 / 2`. Every entry of M is a sum of two coordinates, off by
 /// three roundings of the larger one, and that is at most the largest row sum of M: so every entry of w is off by `3 |M| |x|`,
 /// at most 12 roundings of the bound w; the value, half the square of four of them, by 48 of its square.

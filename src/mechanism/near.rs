@@ -121,7 +121,20 @@ impl Neighbourhood<'_> {
                 }
             }
         }
+        self.rest_spherical(&real, &mut near);
         near
+    }
+
+    /// Takes the families along which a spherical joint alone seems to turn for single configurations: where the axes of its first and
+    /// third rotation coincide these two turn against each other, and the joint stands still.
+    fn rest_spherical(&self, real: &[&Start], near: &mut Near) {
+        let Some(first) = self.layout.spherical_unknown() else { return };
+        let rests = |family: &SelfMotion| (0..6).all(|k| !family.moving[k] || k == first || k == first + 2);
+        let (resting, moving): (Vec<_>, Vec<_>) = near.families.drain(..).partition(|(family, _)| rests(family));
+        near.families = moving;
+        for point in resting.iter().filter_map(|(family, _)| family.points.first()) {
+            self.admit_mode(point, real, near);
+        }
     }
 
     /// Takes in the near self-motions downhill of a start. Whether there are any, known or not.

@@ -209,15 +209,25 @@ impl SingleLoop {
             data: OnceCell::new(),
         };
         let start = Instant::now();
-        let fast = if solver.structural_rank() == 6 { Some(question.answer(workspace, assembly)) } else { None };
+        let mut fast = if solver.structural_rank() == 6 { Some(question.answer(workspace, assembly)) } else { None };
+        let mut exact_modes = None;
         if prepared.layout.spherical.is_some()
             && !fast.as_ref().is_some_and(|(verdict, _)| is_settled(verdict))
             && let Some((verdict, modes)) = self.exactly(&prepared.layout, case, fast.is_some())?
         {
-            return Ok(exact_solution(case, verdict, modes, *prepare_us, start));
+            let is_whole = case.pose.is_none() || verdict.status == Status::SelfMotion;
+            match &mut fast {
+                // The pose is also answered by near solutions, which follow the exact ones in the list.
+                Some((own, us)) if !is_whole => {
+                    (*own, *us, exact_modes) = (verdict, start.elapsed().as_secs_f64() * 1e6, Some(modes));
+                }
+                _ if !is_whole && verdict.status == Status::Unreachable && !question.is_clear(tolerance) => {
+                    return Ok(exact_solution(case, perhaps_near(&verdict), modes, *prepare_us, start));
+                }
+                _ => return Ok(exact_solution(case, verdict, modes, *prepare_us, start)),
+            }
         }
         let (mut verdict, solve_us) = fast.unwrap_or_else(|| question.answer(workspace, assembly));
-        let mut exact_modes = None;
         if roots == Roots::All
             && is_left_to_equations(&verdict)
             && prepared.layout.spherical.is_none()

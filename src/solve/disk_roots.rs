@@ -12,7 +12,8 @@ use std::f64::consts::TAU;
 pub const DEGREE: usize = 8;
 /// Rounds until roots are given up: of 2000 poses of general arms the slowest took 18.
 const MOST_ROUNDS: usize = 40;
-/// The square of a step, in parts of the root, that is the last: the next one would be of the order of its cube, and the polynomial is no more exact.
+/// The square of a step, in parts of the root, after which no other follows: the next step would be of the order of the cube of this one, 1e-15, which is
+/// the rounding of the polynomial.
 const SETTLED: f64 = 1e-10;
 /// First guesses lie on a circle of radius between these.
 const RADII: [f64; 2] = [0.01, 0.95];

@@ -58,8 +58,8 @@ pub struct LaneClosure<S: Simd, N> {
 }
 
 /// The root of 2 and of 3, with a margin: row sums of rotations, and of twists.
-const ROOT_2: f64 = 1.4143;
-const ROOT_3: f64 = 1.7321;
+pub(crate) const ROOT_2: f64 = 1.4143;
+pub(crate) const ROOT_3: f64 = 1.7321;
 
 impl<S: Simd> Angular<S> for Lanes<S> {
     const REAL: bool = true;
@@ -291,7 +291,7 @@ pub fn lane_closure<S: Simd, N: Angular<S>>(
     LaneClosure { residual, jacobian, turn, shift, lengths }
 }
 
-/// The larger number, y where that is NaN; where x is, the off-diagonal entries beside it are, and the residuals with them.
+/// The larger number; y where x is NaN or y is. A NaN in x is lost here, and comes back with the residual: its row of the frame is NaN too.
 #[inline(always)]
 fn larger<S: Simd>(x: Lanes<S>, y: Lanes<S>) -> Lanes<S> {
     y.at_most(x).select(x, y)

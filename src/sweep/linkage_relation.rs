@@ -50,8 +50,8 @@ fn whole(derivation: &LinkageDerivation) -> Result<&GroupPolynomial> {
     Ok(best)
 }
 
-/// Whether every root of a polynomial is simple and has one assembly, and the relation with so many roots has the same. Over a simple
-/// root the matrix has a kernel of one dimension, hence one assembly at most: with as many of both every root has one. None of them is at
+/// Whether every root of a polynomial is simple and has one assembly; then a relation with as many roots has one assembly over each of
+/// its roots, too. Over a simple root the matrix has a kernel of one dimension, hence one assembly at most: with as many of both every root has one. None of them is at
 /// infinity where displacements are bounded.
 fn is_matched(derivation: &LinkageDerivation, own: &GroupPolynomial, full: usize) -> bool {
     let is_simple = own.coefficients.gcd(&own.coefficients.derivative()).degree() == Some(0) && own.at_pi <= 1;

@@ -12,6 +12,7 @@ mod entries;
 mod exact;
 mod examples;
 mod families;
+mod few_joints;
 mod files;
 mod gears;
 mod golden;

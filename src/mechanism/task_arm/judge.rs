@@ -56,19 +56,26 @@ impl TaskArm {
     ) -> Solution {
         let total = found.len();
         let (mut listed, mut others) = (Vec::<FullMode>::new(), Vec::new());
-        let mut is_double = false;
-        for Found { mode, miss } in found {
-            if mode.real && tolerance.allows(&miss) {
-                // Three virtual rotations about one point have two triples of angles for every rotation.
-                if listed.iter().any(|other| self.is_twice(other, &mode)) {
-                    is_double = true;
-                } else {
-                    listed.push(FullMode { error: Some(miss), ..mode });
-                }
+        let is_met = |found: &Found| found.mode.real && tolerance.allows(&found.miss);
+        // Three virtual rotations about one point have two triples of angles for every rotation. At a solution of the pose one is near
+        // 0, the other one near a half turn: each of these is that of one solution with the first.
+        let (turned, found): (Vec<Found>, Vec<Found>) =
+            found.into_iter().partition(|found| found.is_turned && is_met(found));
+        for found in found {
+            if is_met(&found) {
+                listed.push(FullMode { error: Some(found.miss), ..found.mode });
             } else {
-                others.push(Found { mode, miss });
+                others.push(found);
             }
         }
+        let mut has_twin = vec![false; listed.len()];
+        for Found { mode, miss, .. } in turned {
+            match (0..has_twin.len()).find(|k| !has_twin[*k] && self.is_twice(&listed[*k], &mode)) {
+                Some(k) => has_twin[k] = true,
+                None => listed.push(FullMode { error: Some(miss), ..mode }),
+            }
+        }
+        let is_double = has_twin.contains(&true);
         let exact = listed.iter().filter(|mode| !mode.near).count();
         let with_multiplicity = listed.iter().filter(|mode| !mode.near).map(|mode| mode.multiplicity.max(1)).sum();
         let listed_none = listed.is_empty();
@@ -112,11 +119,9 @@ impl TaskArm {
         verdict.complex_complete = false;
         verdict.certified = listed.iter().filter(|mode| mode.certified).count();
         let conditions = 6 - filled.len();
-        let of = if is_double {
-            format!("{exact} solutions of {conditions} conditions, each by two triples of virtual angles, are solutions of the pose")
-        } else {
-            format!("{exact} of {total} solutions of {conditions} conditions are solutions of the pose")
-        };
+        let by = if is_double { ", two triples of virtual angles for each," } else { "" };
+        let are = if exact == 1 { "is a solution" } else { "are solutions" };
+        let of = format!("{exact} of {total} solutions of {conditions} conditions{by} {are} of the pose");
         let also = if near > 0 { format!(", {near} more come within the tolerance") } else { String::new() };
         verdict.reason = format!("{of}{also}; of the conditions: {}", verdict.reason);
         let nearest = if listed.is_empty() { closest } else { None };

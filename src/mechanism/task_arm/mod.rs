@@ -76,6 +76,8 @@ struct Inner {
 struct Found {
     mode: FullMode,
     miss: PoseError,
+    /// Whether there are three virtual rotations, all nearer to a half turn than to 0.
+    is_turned: bool,
 }
 
 impl TaskArm {
@@ -238,12 +240,17 @@ impl TaskArm {
 
     fn of_arm(&self, mode: FullMode, kept: &[usize], inner: &Inner, pose: &Placement) -> Found {
         let q: Vec<Complex<f64>> = self.assembled(&mode.q, kept, inner);
+        // Virtual joints stand behind those of the arm.
+        let virtual_ones = mode.q.iter().skip(kept.len());
+        let is_turned = inner.filled.len() == 3
+            && inner.filled.iter().all(|own| own.variable == Variable::Rotation)
+            && virtual_ones.take(3).all(|angle| angle.re.cos() < 0.0);
         let real: Vec<f64> = q.iter().map(|value| value.re).collect();
         let miss = self.task.miss(&self.forward.pose(&real), &pose.float);
         let is_limited = mode.real && !self.limits.is_empty();
         let within_limits =
             is_limited.then(|| super::single_loop::within_limits(&q, self.forward.variables(), &self.limits));
-        Found { mode: FullMode { q, within_limits, ..mode }, miss }
+        Found { mode: FullMode { q, within_limits, ..mode }, miss, is_turned }
     }
 
     /// Bound of the way of the tool by joint values that are off by a radius, and of its turning.
