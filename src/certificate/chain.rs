@@ -150,7 +150,7 @@ impl ChainClosure {
         }
     }
 
-    fn links<S: Enclosing>(&self) -> [Motion<S>; 6] {
+    pub(super) fn links<S: Enclosing>(&self) -> [Motion<S>; 6] {
         self.links.each_ref().map(|link| Motion {
             rotation: link.rotation.each_ref().map(|row| row.each_ref().map(S::of)),
             translation: link.translation.each_ref().map(S::of),

@@ -75,6 +75,11 @@ impl<const BITS: u32> Enclosing for Ball<BITS> {
     }
 }
 
+/// Returns an upper bound of the distance of a number of the data from the middle of its enclosure.
+pub(super) fn distance_from_middle(known: &Enclosure) -> f64 {
+    if known.off() == i32::MIN { 0.0 } else { Float::with_val(BOUND, Float::i_exp(1, known.off())).to_f64_round(Round::Up) }
+}
+
 /// Returns the approximate inverse of the midpoints of a matrix; proofs with it do not rest on its accuracy.
 pub(super) fn near_inverse<S: Enclosing, const N: usize>(matrix: &[[S; N]; N]) -> Option<[[S; N]; N]> {
     let mut left = matrix.each_ref().map(|row| row.each_ref().map(Enclosing::middle));

@@ -1,6 +1,7 @@
 //! Checks modes: each ball holds exactly one solution, balls hold different solutions, real ones are real.
 
 use super::chain::ChainClosure;
+use super::doubled::Doubled;
 use super::enclosing::{Enclosing, near_inverse};
 use super::fault::{Fault, refused};
 use super::mode::Ball;
@@ -9,7 +10,7 @@ use super::platform::PlatformClosure;
 use crate::algebra::ball::Ball as Long;
 use rug::{Float, Rational, float::Round};
 
-/// Numbers for the second attempt.
+/// Numbers for the last attempt.
 pub(super) type Longer = Long<384>;
 
 /// Unknowns as balls.
@@ -62,7 +63,10 @@ fn all<const N: usize>(closure: &impl Closure<N>, balls: &[Ball]) -> Result<(), 
         if ball.radius <= 0 || ball.radius > Rational::from((1, 1000)) {
             return refused(format!("mode {at}: the radius is not between 0 and 1/1000"));
         }
-        if !holds_one::<N, Nearby>(closure, ball) && !holds_one::<N, Longer>(closure, ball) {
+        let is_proved = holds_one::<N, Nearby>(closure, ball)
+            || holds_one::<N, Doubled>(closure, ball)
+            || holds_one::<N, Longer>(closure, ball);
+        if !is_proved {
             return refused(format!("mode {at}: no solution is proved within the radius"));
         }
         let has_imaginary = ball.centre.iter().any(|(_, im)| *im != 0);

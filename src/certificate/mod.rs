@@ -10,6 +10,7 @@ mod chain;
 mod check;
 mod data;
 mod distance;
+mod doubled;
 mod eliminant;
 mod enclosing;
 mod fault;

@@ -4,10 +4,10 @@
 //! being sums of the absolute values of both parts. Bounds take 8 u and more of each, and radii are enlarged by a part of
 //! 2^-48 of themselves for the roundings of their own sums. Underflow loses less than the smallest normal number.
 
-use super::enclosing::Enclosing;
+use super::enclosing::{Enclosing, distance_from_middle};
 use crate::algebra::enclosure::Enclosure;
 use crate::algebra::ring::{Field, Ring};
-use rug::{Float, Rational, float::Round};
+use rug::{Float, Rational};
 
 /// 8 u
 const ROUNDING: f64 = 8.0 * (f64::EPSILON / 2.0);
@@ -93,11 +93,7 @@ impl Enclosing for Nearby {
         Self::with(re.to_f64(), im.to_f64(), radius)
     }
     fn of(known: &Enclosure) -> Self {
-        let off = if known.off() == i32::MIN {
-            0.0
-        } else {
-            Float::with_val(53, Float::i_exp(1, known.off())).to_f64_round(Round::Up)
-        };
+        let off = distance_from_middle(known);
         let near = known.middle().to_f64();
         if off == 0.0 && *known.middle() == near {
             return Self { re: near, im: 0.0, radius: 0.0 };

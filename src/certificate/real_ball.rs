@@ -3,10 +3,10 @@
 //! A middle is rounded once an operation, by at most half of its last bit. Bounds are computed in f64, and enlarged by a part of
 //! 2^-48 of themselves for the roundings of their own sums. A bound that overflows or is NaN bounds nothing.
 
-use super::enclosing::Enclosing;
+use super::enclosing::{Enclosing, distance_from_middle};
 use crate::algebra::enclosure::Enclosure;
 use crate::algebra::ring::{Field, Ring};
-use rug::{Float, Rational, float::Round};
+use rug::{Float, Rational};
 
 /// Bits of a middle.
 const BITS: u32 = 384;
@@ -105,11 +105,7 @@ impl Enclosing for RealBall {
         Self::with(Float::with_val(BITS, re), radius + size(im))
     }
     fn of(known: &Enclosure) -> Self {
-        let off = if known.off() == i32::MIN {
-            0.0
-        } else {
-            Float::with_val(53, Float::i_exp(1, known.off())).to_f64_round(Round::Up)
-        };
+        let off = distance_from_middle(known);
         let middle = Float::with_val(BITS, known.middle());
         if off == 0.0 && middle == *known.middle() { Self { middle, radius: 0.0 } } else { Self::with(middle, off) }
     }

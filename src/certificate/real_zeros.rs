@@ -1,6 +1,7 @@
 //! An upper bound on the number of real solutions of a loop by the real zeros of an eliminant: theorem 9 of docs/certificate.md.
 
 use super::chain::ChainClosure;
+use super::doubled::Doubled;
 use super::enclosing::Enclosing;
 use super::fault::{Fault, refused};
 use super::lines::{COLUMNS, Kinds, Rows, at, matrix};
@@ -9,7 +10,6 @@ use super::real_ball::RealBall;
 use super::record::{count, fields};
 use crate::algebra::determinant::determinant;
 use crate::algebra::echelon::Echelon;
-use crate::algebra::ring::Ring;
 use crate::algebra::univariate::Univariate;
 use crate::kinematics::joint::Variable;
 use crate::kinematics::motion::Motion;
@@ -28,7 +28,10 @@ const ASIDE: (i32, i32) = (1, 32);
 const SHALLOW: usize = 5;
 /// Depth of the divisions: zeros nearer than 2^-100 are not told apart.
 const DEEPEST: usize = 100;
-/// The places at which the minor is computed are `(11 k + 1)/8` for k from -12 to 12: binary fractions, none of them special.
+/// Divisions that are tried with numbers of twice the digits of f64: then no digit of theirs is left.
+const DEEP: usize = 60;
+/// The places at which the minor is computed are `(11 k + 1)/64` for k from -12 to 12: binary fractions, none of them special, and from
+/// -2 to 2, so that few digits are lost.
 const PLACES: std::ops::RangeInclusive<i32> = -12..=12;
 
 /// The choice of the hidden unknown.
@@ -39,6 +42,11 @@ pub(super) struct Choice {
 }
 
 impl Choice {
+    /// Returns the unknown that is number k from the first one.
+    fn around(self, k: usize) -> usize {
+        (self.first + k) % 6
+    }
+
     pub(super) fn read(aid: &Value) -> Result<Self, Fault> {
         let [first, hidden] = fields(aid, ["first", "hidden"], &[])?;
         Ok(Self { first: count(first)?, hidden: count(hidden)? })
@@ -61,49 +69,51 @@ pub(super) fn real_solutions(closure: &ChainClosure, choice: Choice) -> Result<u
     if choice.first > 5 || choice.hidden > 2 || !closure.spherical.is_empty() {
         return no("no such unknown");
     }
-    let around = |k: usize| (choice.first + k) % 6;
-    let kinds: Kinds = std::array::from_fn(|k| Some(closure.variables[around(k)]));
+    let kinds: Kinds = std::array::from_fn(|k| Some(closure.variables[choice.around(k)]));
     if [kinds[3], kinds[choice.hidden]] != [Some(Variable::Rotation); 2] {
         return no("the hidden unknown or the fourth one is no rotation");
     }
-    let links: [Motion<RealBall>; 6] = std::array::from_fn(|k| {
-        let link = &closure.links[around(k)];
-        Motion {
-            rotation: link.rotation.each_ref().map(|row| row.each_ref().map(RealBall::of)),
-            translation: link.translation.each_ref().map(RealBall::of),
-        }
-    });
-    let Some(rows) = matrix(&links, &kinds, choice.hidden) else {
-        return no("the other unknowns do not follow from three of them");
-    };
-    let Some(minor) = minor(&rows) else { return no("the eliminant is 0, or not known well enough") };
-    let backwards: Vec<RealBall> = minor.iter().rev().cloned().collect();
+    let near = real_zeros::<Doubled>(closure, &kinds, choice, |f| few_zeros(f, DEEP));
+    near.or_else(|_| real_zeros::<RealBall>(closure, &kinds, choice, |f| zeros(f, 0))).or_else(no)
+}
+
+/// As [`real_solutions`], over numbers of one kind; `zeros` counts the zeros from -1 to 1 of a polynomial.
+fn real_zeros<S: Enclosing>(
+    closure: &ChainClosure,
+    kinds: &Kinds,
+    choice: Choice,
+    zeros: impl Fn(&[S]) -> Option<usize>,
+) -> Result<usize, &'static str> {
+    let own = closure.links::<S>();
+    let links: [Motion<S>; 6] = std::array::from_fn(|k| own[choice.around(k)].clone());
+    let rows = matrix(&links, kinds, choice.hidden).ok_or("the other unknowns do not follow from three of them")?;
+    let minor = minor(&rows).ok_or("the eliminant is 0, or not known well enough")?;
+    let backwards: Vec<S> = minor.iter().rev().cloned().collect();
     let end = Rational::from(END);
-    let inverse = Rational::from(end.recip_ref());
-    let within = |f: &[RealBall], end: &Rational| zeros(&shifted(f, &Rational::new(), end)?, 0);
-    match [within(&minor, &end), within(&backwards, &inverse)] {
+    let within = |f: &[S], end: &Rational| zeros(&shifted(f, &Rational::new(), end)?);
+    match [within(&minor, &end), within(&backwards, &Rational::from(end.recip_ref()))] {
         [Some(inside), Some(outside)] => Ok(inside + outside),
-        _ => no("two zeros may be one, or one is at the end of an interval"),
+        _ => Err("two zeros may be one, or one is at the end of an interval"),
     }
 }
 
 /// Returns the coefficients of a minor that is not 0 as a polynomial of degree 24, the highest ones 0 if it has a lower degree.
-fn minor(rows: &Rows<RealBall>) -> Option<Vec<RealBall>> {
-    let place = |k: i32| RealBall::from_rational(&Rational::from((11 * k + 1, 8)));
+fn minor<S: Enclosing>(rows: &Rows<S>) -> Option<Vec<S>> {
+    let place = |k: i32| S::from_rational(&Rational::from((11 * k + 1, 64)));
     let chosen = Echelon::of(at(rows, &place(3)?), COLUMNS);
     if chosen.rank() < COLUMNS {
         return None;
     }
-    let chosen: Rows<RealBall> = chosen.independent_rows().iter().map(|row| rows[*row].clone()).collect();
+    let chosen: Rows<S> = chosen.independent_rows().iter().map(|row| rows[*row].clone()).collect();
     let value = |k: i32| {
         let t = place(k)?;
         // A determinant without a sure pivot is 0 as a number, and no bound.
         let value = determinant(&at(&chosen, &t));
         (!value.is_zero()).then_some((t, value))
     };
-    let points: Vec<(RealBall, RealBall)> = PLACES.map(value).collect::<Option<_>>()?;
+    let points: Vec<(S, S)> = PLACES.map(value).collect::<Option<_>>()?;
     let mut coefficients = Univariate::interpolate(&points).coefficients().to_vec();
-    coefficients.resize(DEGREE + 1, RealBall::zero());
+    coefficients.resize(DEGREE + 1, S::zero());
     Some(coefficients)
 }
 
@@ -174,6 +184,7 @@ fn shifted<S: Enclosing>(f: &[S], middle: &Rational, half: &Rational) -> Option<
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::algebra::ring::Ring;
 
     /// The product of `x - root` and of `x^2 + 1`.
     fn with_roots(roots: &[(i32, i32)]) -> Vec<RealBall> {

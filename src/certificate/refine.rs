@@ -1,6 +1,7 @@
 //! Balls for a certificate, from solutions that are known to a few digits.
 
 use super::chain::ChainClosure;
+use super::doubled::Doubled;
 use super::enclosing::{Enclosing, near_inverse};
 use super::isolation::{Closed, Closure, Longer, Point, holds_one, proved_modes};
 use super::mode::Ball;
@@ -12,6 +13,8 @@ use rug::{Float, Integer, Rational, float::Constant, ops::Pow};
 
 /// Number of Newton steps: from eight digits six of them give more than enough.
 const STEPS: usize = 8;
+/// The step after one that is as small changes no decimal of a centre: it is about the square of this.
+const ENOUGH: f64 = 1e-25;
 /// Number of decimals of a centre.
 const DECIMALS: u32 = 30;
 /// Radii that are tried, as exponents of ten: the largest one is the easiest to check in f64.
@@ -46,6 +49,7 @@ fn all<const N: usize>(closed: &Closed, closure: &impl Closure<N>, near: &[Near]
             };
             let by = |proves: &dyn Fn(&Ball) -> bool| RADII[start..].iter().map(ball).find(|ball| proves(ball));
             by(&|ball| [ball, &wider(ball)].iter().all(|ball| holds_one::<N, Nearby>(closure, ball)))
+                .or_else(|| by(&|ball| [ball, &wider(ball)].iter().all(|ball| holds_one::<N, Doubled>(closure, ball))))
                 .or_else(|| by(&|ball| [ball, &wider(ball)].iter().all(|ball| holds_one::<N, Longer>(closure, ball))))
         };
         let balls: Vec<Ball> = centres.iter().zip(near).map(one).collect::<Option<_>>()?;
@@ -79,8 +83,10 @@ fn refined<const N: usize>(
         };
         let inverse = near_inverse(&closure.jacobian(&point))?;
         let values = closure.values(&point);
+        let mut largest: f64 = 0.0;
         for (row, (re, im)) in inverse.iter().zip(&mut x) {
             let step = row.iter().zip(&values).fold(Longer::zero(), |sum, (c, f)| sum.add(&c.mul(f)));
+            largest = largest.max(step.at_most());
             *re -= step.re().to_rational()?;
             *im -= step.im().to_rational()?;
             if real {
@@ -88,6 +94,9 @@ fn refined<const N: usize>(
             }
             // Digits beyond the accuracy of the step are dropped.
             (*re, *im) = (rounded(re, 3 * DECIMALS), rounded(im, 3 * DECIMALS));
+        }
+        if largest < ENOUGH {
+            break;
         }
     }
     for (k, (re, im)) in x.iter_mut().enumerate() {
