@@ -456,7 +456,8 @@ impl Angle {
     /// let angle = Angle::parse("acos(-3/5)", &Reading::default())?.supplement();
     /// assert_eq!(*angle.half_tangent(), HalfTangent::Finite((1, 2).into()));
     /// let angle = Angle::parse("99 deg", &Reading::default())?.supplement();
-    /// assert_eq!(angle.text().as_deref(), Some("180 - (99) deg"));
+    /// assert_eq!(angle.text().as_deref(), Some("(180 - (99)) deg"));
+    /// assert!(Angle::parse("(180 - (99)) deg", &Reading::default()).is_ok());
     /// # Ok::<(), looproot_algebra::error::Error>(())
     /// ```
     #[must_use]
@@ -471,7 +472,7 @@ impl Angle {
         let phase = self.phase.as_ref().map(|of| Arc::new((of.0.neg(), of.1.clone())));
         // A unit stands behind a whole sum.
         let of_text = |text: &str| match text.strip_suffix("deg") {
-            Some(degrees) => format!("180 - ({}) deg", degrees.trim_end()),
+            Some(degrees) => format!("(180 - ({})) deg", degrees.trim_end()),
             None => format!("pi - ({})", text.strip_suffix("rad").unwrap_or(text).trim_end()),
         };
         let written = self.written.text().map(|text| Written::new(&of_text(&text), Rational::from(1)));
