@@ -1,24 +1,27 @@
 """Theorem 9 of docs/certificate.md: the real solutions of a loop belong to the real zeros of an eliminant in one angle."""
-from flint import arb, arb_poly, fmpq
+from flint import arb, arb_mat, arb_poly, fmpq
 
-from eliminants import Eliminant
+from closures import Chain
+from eliminant import Eliminant, at
 from quantities import Refused, fields, whole
 
 END = fmpq(97, 89)  # the tangents of the half angle are searched up to it, and their inverses up to its inverse
 NARROW = fmpq(1, 2**100)  # zeros that are nearer than this are not told apart
+PLACES = [arb(11 * k + 1) / 64 for k in range(-12, 13)]  # from -2 to 2, so that few digits are lost, and none of them special
 ASIDE = fmpq(1, 37)  # intervals are divided beside the middle, where zeros of special data may be
 
 
 def most_real(system, aid):
     """The number of real zeros of the eliminant, which are simple: no more real solutions exist."""
-    if system.kinds == "platform" or system.size != 6 or system.spherical:
+    first, hidden = map(whole, fields(aid, ("first", "hidden")))
+    if not isinstance(system, Chain) or system.size != 6 or system.spherical:
         raise Refused("proof: real-zeros: only loops of six rotations and translations have an eliminant")
     links = [[[arb(x) for x in row] for row in link] for link in system.links]  # long rational numbers would take long
-    eliminant = Eliminant(links, system.kinds, *map(whole, fields(aid, ("first", "hidden"))))
+    eliminant = Eliminant(links, system.kinds, first, hidden)
     if not eliminant.is_angle:
         raise Refused("proof: real-zeros: the unknown is no angle")
-    values = eliminant.polynomial_of_balls().coeffs()
-    values += [arb(0)] * (25 - len(values))
+    minor = arb_poly.interpolate(PLACES, [arb_mat(at(eliminant.chosen, t)).det() for t in PLACES])
+    values = [minor[k] for k in range(25)]
     return zeros(arb_poly(values), -END, END) + zeros(arb_poly(values[::-1]), -1 / END, 1 / END)
 
 

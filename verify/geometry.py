@@ -1,10 +1,41 @@
-"""Theorem 3 (c) to (e) of docs/certificate.md: what the points of a platform allow, whatever its legs are."""
+"""Theorem 3 of docs/certificate.md: the most solutions that a loop with special axes, or a platform with special points can have."""
 from flint import acb, acb_mat, arb, fmpq_mat
 
-from eliminants import eliminate
-from motions import cross, dot
+from bounds import THREE_JOINTS
+from closures import SLIDE, Platform
+from lines import cross, eliminate
+from motions import column, difference, dot, inverse
+from quantities import is_exact
 
 LEGS = range(6)
+
+
+def geometry(system):
+    if isinstance(system, Platform):
+        return of_points(system.base, system.plate) if all(map(is_exact, system.base + system.plate)) else None
+    return min(filter(None, map(lambda first: of_triple(system, first), range(6))), default=None)
+
+
+def of_triple(system, first):
+    """Three neighbouring axes that are parallel, or meet in a point."""
+    around = [(first + k) % 6 for k in range(6)]
+    if system.spherical or any(system.kinds[k] == SLIDE for k in around[:3]):
+        return None
+    slides = sum(system.kinds[k] == SLIDE for k in around[3:])
+    before, behind = system.links[around[0]], system.links[around[1]]
+    if all(m[0][2] == 0 and m[1][2] == 0 for m in (before, behind)):
+        return {0: 8, 1: 4}.get(slides)
+    plain = all(m[0][3] == 0 and m[1][3] == 0 for m in (before, behind)) and behind[2][3] == 0
+    one, other = crossing(inverse(before)), crossing(behind)
+    meet = plain or one and other and one[0] * other[1] - other[0] * one[1] == 0
+    return 2 * THREE_JOINTS[slides] if meet else None
+
+
+def crossing(m):
+    """Where on the z axis its image under a link crosses it, as a quotient."""
+    (x, y, z), (u, v, w) = column(m, 3), column(m, 2)
+    square = u * u + v * v
+    return (z * square - (x * u + y * v) * w, square) if x * v - y * u == 0 and square != 0 else None
 
 
 def of_points(base, plate):
@@ -27,10 +58,6 @@ def in_pairs(points):
     if len(corners) != 3 or any(points.count(point) != 2 for point in corners):
         return False
     return any(x != 0 for x in cross(*(difference(corner, corners[0]) for corner in corners[1:])))
-
-
-def difference(u, v):
-    return [x - y for x, y in zip(u, v)]
 
 
 def are_similar(base, plate):

@@ -1,0 +1,65 @@
+"""Theorem 11 of docs/certificate.md: which solutions of the longer loop are those of a loop of fewer than six unknowns."""
+from flint import acb, acb_poly, arb, ctx, fmpq
+
+from algebraic import Points
+from closures import TURN, Chain, Platform, differ
+from motions import along, inverse, times, turn
+from quantities import Refused, by_half_tangent
+
+PRECISION = 1408  # bits: coefficients of some 400 cancel
+STEPS = 6  # of Newton's method, from 53 bits
+
+
+def lengthened(system):
+    """The loop with rotations about axes that nothing distinguishes behind its last link, up to six unknowns."""
+    if isinstance(system, Platform) or system.size == 6:
+        return system
+    if system.size > 6:
+        raise Refused("closure: loops of at most six unknowns are covered")
+    parts = [part for pair in zip(system.kinds, system.links) for part in pair]
+    for k in range(6 - system.size):
+        about_x, about_y = turn(0, *by_half_tangent(fmpq(2 + k, 7))), turn(1, *by_half_tangent(fmpq(3, 5 + 2 * k)))
+        frame = times(inverse(system.first), along(fmpq(k + 1, 3), fmpq(1, k + 2), 0), about_x, about_y)
+        parts += [frame, TURN, inverse(frame)]
+    return Chain(parts, system.spherical)
+
+
+def own_modes(system, modes, is_own_bound, others):
+    """Those of the loop itself among the modes of the longer one: as many as the points of the second item, if there is one."""
+    points = Points(system, others[0]) if others else None
+    if is_own_bound and points:
+        own = [mode for mode in modes if is_one_in(points, system, mode)]
+    else:  # the added rotations may be 0
+        own = [mode for mode in modes if not any(
+            differ(TURN, x, mode[1]) for x in mode[0][system.size:])]
+    count = points.modulus.degree() if points else 0
+    if len(own) != count or is_own_bound and len(modes) != count:
+        raise Refused(f"proof: points: they are {count}, and {len(own)} of the {len(modes)} modes may be solutions of the loop")
+    return own
+
+
+def is_one_in(points, system, mode):
+    """Whether a ball holds one of the points, with all further unknowns at 0."""
+    (centre, radius, _), before = mode, ctx.prec
+    ctx.prec = PRECISION
+    try:
+        here = system.parts(centre)
+        root, modulus = points.weighed([x for own in here for x in own]).mid(), points.modulus
+        step = lambda t: acb_poly(modulus)(t) / acb_poly(modulus.derivative())(t)
+        for _ in range(STEPS):
+            root = (root - step(root)).mid()
+        off = arb(0, modulus.degree() * step(root).abs_upper())  # P'/P is the sum of 1/(t - root) over n roots
+        root = acb(root.real + off, root.imag + off)
+        values = [[acb_poly(part.value)(root) for part in own] for own in points.values]
+        return all(map(lambda one, other: is_near(one, other, radius), values, here)) and all(
+            x.abs_upper() < radius for x in centre[system.size:])
+    finally:
+        ctx.prec = before
+
+
+def is_near(one, other, radius):
+    if len(one) == 1:
+        return (one[0] - other[0]).abs_upper() < radius
+    # Cosine and sine of the difference, which is less than twice the sine if that is small and the cosine positive.
+    (cos, sin), (c, s) = one, other
+    return 2 * (sin * c - cos * s).abs_upper() < radius and (cos * c + sin * s).real > 0
