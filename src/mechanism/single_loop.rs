@@ -257,6 +257,20 @@ impl SingleLoop {
                 Some((_, exact, modes)) => (verdict, exact_modes) = (exact, Some(modes)),
             }
         }
+        Ok(self.listed(&question, verdict, exact_modes, [*prepare_us, solve_us], assembly))
+    }
+
+    /// The answer with the modes of the list, or those of the exact side in their place, and what is near the pose behind them.
+    fn listed(
+        &self,
+        question: &Question<'_>,
+        mut verdict: Verdict,
+        exact_modes: Option<Vec<FullMode>>,
+        [prepare_us, solve_us]: [f64; 2],
+        assembly: &Assembly,
+    ) -> Solution {
+        let Question { prepared, case, roots, gap, .. } = *question;
+        let solver = &prepared.solver;
         if solver.structural_rank() < 6 {
             verdict.reason += &dependent(&self.chain, &prepared.layout, solver.axis_triples());
             if case.pose.is_none() {
@@ -269,10 +283,10 @@ impl SingleLoop {
         let full = |mode: &Mode| full_mode(mode, values(mode), &prepared.layout.variables, &self.limits);
         let is_listed = |mode: &&Mode| mode.real || roots == Roots::All;
         let mut modes = exact_modes.unwrap_or_else(|| assembly.modes.iter().filter(is_listed).map(full).collect::<Vec<_>>());
-        let vicinity = Vicinity { of: self, prepared, locked: locked_value.re, gap: &gap };
+        let vicinity = Vicinity { of: self, prepared, locked: locked_value.re, gap };
         let is_moving = verdict.status == Status::SelfMotion;
         let mut families = if is_moving { vicinity.families(&assembly.families) } else { Vec::new() };
-        if let Some(pose) = &case.pose {
+        if let (Some(pose), Some(tolerance)) = (&case.pose, question.tolerance) {
             let near = vicinity.near(pose, tolerance, &verdict, assembly);
             vicinity.list(&near, tolerance, &mut modes, &mut families);
             if verdict.status == Status::Unreachable {
@@ -283,16 +297,8 @@ impl SingleLoop {
                 }
             }
         }
-        Ok(Solution {
-            arm: None,
-            families,
-            verdict,
-            modes,
-            warnings: case.warnings.clone(),
-            prepare_us: *prepare_us,
-            solve_us,
-            platform: None,
-        })
+        let warnings = case.warnings.clone();
+        Solution { arm: None, families, verdict, modes, warnings, prepare_us, solve_us, platform: None }
     }
 
     /// The closing transformation of a case in f64.
