@@ -14,6 +14,7 @@ pub mod multiple_pose;
 pub mod octic;
 pub mod opposite_axes;
 pub mod pencil;
+pub mod platform_basis;
 pub mod platform_degree;
 pub mod platform_far;
 pub mod platform_height;

@@ -22,6 +22,7 @@ use crate::kinematics::platform::Platform;
 use num_complex::Complex;
 use rayon::prelude::*;
 use rug::{Integer, Rational};
+use std::cell::Cell;
 
 /// The closure polynomial of a platform with given legs.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -264,6 +265,11 @@ impl PlatformAlgebra {
 
 /// Whether a monic polynomial modulo a prime has only simple roots.
 fn is_square_free(modulus: &Modulus, polynomial: &[u64]) -> bool {
+    shared_roots(modulus, polynomial) == 1
+}
+
+/// The length of the greatest common divisor of a monic polynomial modulo a prime and its derivative: 1 where all roots are simple.
+fn shared_roots(modulus: &Modulus, polynomial: &[u64]) -> usize {
     let mut a = polynomial.to_vec();
     let mut b: Vec<u64> = (1..a.len()).map(|k| Modulus::mul(modulus, a[k], modulus.enter(k as u64))).collect();
     loop {
@@ -271,7 +277,7 @@ fn is_square_free(modulus: &Modulus, polynomial: &[u64]) -> bool {
             b.pop();
         }
         if b.len() < 2 {
-            return !b.is_empty();
+            return if b.is_empty() { a.len() } else { 1 };
         }
         let inverse = modulus.inverse(b[b.len() - 1]);
         while a.len() >= b.len() {
@@ -297,14 +303,35 @@ pub fn platform_polynomial(platform: &Platform<Rational>, legs_squared: &[Ration
     polynomial_in(&COORDINATES, platform, legs_squared, is_square_free)
 }
 
-/// Returns the polynomial in a general coordinate, whatever the multiplicities of its roots; the multiplicity of a root is the
-/// sum over the poses of one rotation. `None` where there is no pose, or infinitely many of them.
+/// General coordinates. Each is constant on the rotations about one axis, which small integers happen to be; the last ones have other
+/// numbers.
+const GENERAL: [Coordinate; 4] = [
+    COORDINATES[COORDINATES.len() - 2],
+    COORDINATES[COORDINATES.len() - 1],
+    Coordinate { turn: [31, -19, 13, 7], weights: [17, -23, 29] },
+    Coordinate { turn: [-11, 37, 5, 23], weights: [19, 13, -31] },
+];
+
+/// Returns the polynomial in the general coordinate that has most values modulo a prime, whatever the multiplicities of its roots; the
+/// multiplicity of a root is the sum over the poses that share its value. `None` where there is no pose, or infinitely many of them.
 #[must_use]
 pub fn multiple_platform_polynomial(
     platform: &Platform<Rational>,
     legs_squared: &[Rational; 6],
 ) -> Option<PlatformPolynomial> {
-    polynomial_in(&COORDINATES[COORDINATES.len() - 2..], platform, legs_squared, |_, _| true)
+    let values = |coordinate: &Coordinate| {
+        let values = Cell::new(0);
+        let count = |modulus: &Modulus, image: &[u64]| {
+            values.set(image.len() - shared_roots(modulus, image));
+            false
+        };
+        // Refused after one prime.
+        let _ = polynomial_in(&[*coordinate], platform, legs_squared, count);
+        values.get()
+    };
+    // Of those with as many values the first one, whose numbers are short.
+    let most = GENERAL.iter().rev().max_by_key(|coordinate| values(coordinate))?;
+    polynomial_in(&[*most], platform, legs_squared, |_, _| true)
 }
 
 /// Returns whether some coordinate has different values at all poses of a platform with 40 poses, which are then simple. As it is

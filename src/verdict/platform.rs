@@ -15,6 +15,8 @@ pub struct PlatformKnowledge {
     pub count: Option<Bound>,
     /// The counted dimension of a family of poses, complex ones included; a measurement only.
     pub infinite: Option<usize>,
+    /// Whether the equations have infinitely many solutions modulo a prime drawn at random.
+    pub infinite_modulo_prime: bool,
     /// The proof that no real pose is missing: every real root of the exact polynomial belongs to listed real poses whose
     /// multiplicities add up to its own.
     pub reals: Option<Proof>,
@@ -131,7 +133,10 @@ fn count(assembly: &PlatformAssembly, roots: Roots, knowledge: &PlatformKnowledg
                 return Judged::unproved(Code::OnlyReal, "not proved: only real roots were looked for".to_owned());
             }
             let reason = match knowledge.infinite {
-                Some(_) => "not proved: there seem to be infinitely many poses, real or complex".to_owned(),
+                Some(_) if knowledge.infinite_modulo_prime => {
+                    "not proved: there seem to be infinitely many poses, real or complex, as modulo a prime drawn at random".to_owned()
+                }
+                Some(_) => "not proved: it is not decided whether there are finitely many poses".to_owned(),
                 None => format!("not proved: found {found} of up to {MOST_POSES} roots"),
             };
             return Judged::unproved(Code::TooFew, reason);

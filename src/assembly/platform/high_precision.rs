@@ -4,6 +4,7 @@ use super::prepared::Frame;
 use crate::algebra::long_float::LongNumber;
 use crate::algebra::ring::{Field, Ring};
 use crate::closure::study::{Four, left, scalar};
+use crate::elimination::platform_basis::PoseTable;
 use crate::elimination::platform_long::{LongAlgebra, long_algebra};
 use crate::kinematics::dual_quaternion::Quaternion;
 use crate::kinematics::platform::Platform;
@@ -46,6 +47,30 @@ pub fn starts<const LIMBS: usize>(
         let upper = upper_roots(&hessenberg).into_iter();
         upper.filter_map(|root| study(&algebra, &hessenberg.vector(&root)?, frame)).collect()
     })
+}
+
+/// Returns points near the poses that a table of exact numbers describes, one of each conjugate pair and both quaternions of every
+/// rotation; empty where a number is too long.
+pub fn starts_of_table<const LIMBS: usize>(table: &PoseTable, frame: &Frame) -> Vec<Eight<Long<LIMBS>>> {
+    let row = |row: &Vec<Rational>| row.iter().map(LongNumber::<LIMBS>::from_rational).collect::<Option<Vec<_>>>();
+    let rows = |rows: &[Vec<Rational>]| rows.iter().map(row).collect::<Option<Vec<_>>>();
+    let (form, coordinates) = (rows(&table.form), rows(&[&table.rotation[..], &table.position[..]].concat()));
+    let (Some(form), Some(coordinates)) = (form, coordinates) else { return Vec::new() };
+    let hessenberg = Hessenberg::of(form);
+    let still = || Quaternion { scalar: LongNumber::one(), vector: std::array::from_fn(|_| LongNumber::zero()) };
+    let at = |root: Long<LIMBS>| {
+        let values = hessenberg.vector(&root)?;
+        let one = values.first()?.inverse()?;
+        let value = |row: &Vec<LongNumber<LIMBS>>| {
+            let terms = row.iter().zip(&values);
+            terms.fold(Long::<LIMBS>::zero(), |sum, (c, v)| sum.add(&v.times(*c))).mul(&one)
+        };
+        let z: Four<Long<LIMBS>> = std::array::from_fn(|k| value(&coordinates[k]));
+        let moved = left(&std::array::from_fn(|k| value(&coordinates[4 + k])));
+        let y: Four<Long<LIMBS>> = std::array::from_fn(|i| scalar(&moved[i], &z));
+        framed(&z, &y, &[still(), still()], frame)
+    };
+    upper_roots(&hessenberg).into_iter().filter_map(at).collect()
 }
 
 /// Returns the simple eigenvalues of a real matrix that are real, nearly so, or above the real axis.

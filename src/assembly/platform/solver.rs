@@ -2,7 +2,7 @@
 
 use super::affine::affine_starts;
 use super::exact::exact_modes;
-use super::high_precision::starts;
+use super::high_precision::{starts, starts_of_table};
 use super::homotopy::{End, Homotopy};
 use super::mode::{PlatformAssembly, PlatformMode, Route};
 use super::prepared::{Chart, Frame, LegNumbers, Squares};
@@ -18,6 +18,7 @@ use crate::elimination::affine_platform::AffineRelation;
 use crate::elimination::border::{BorderBasis, DIMENSION, Reals};
 use crate::elimination::multiple_pose::ExactPoses;
 use crate::elimination::pencil::Square;
+use crate::elimination::platform_basis::PoseTable;
 use crate::elimination::platform_incidence::most_poses;
 use crate::kinematics::motion::Vector;
 use crate::kinematics::platform::Platform;
@@ -155,6 +156,31 @@ impl PlatformSolver {
         workspace: &mut PlatformWorkspace,
         assembly: &mut PlatformAssembly,
     ) {
+        let starts = starts::<LIMBS>(platform, legs_squared, &self.frame);
+        self.prove_near::<LIMBS>(&starts, legs_squared, expected, workspace, assembly);
+    }
+
+    /// As [`Self::solve_in_high_precision`], from the exact table of the poses of the same platform and legs.
+    pub fn solve_by_table<const LIMBS: usize>(
+        &self,
+        table: &PoseTable,
+        legs_squared: &[Rational; 6],
+        expected: usize,
+        workspace: &mut PlatformWorkspace,
+        assembly: &mut PlatformAssembly,
+    ) {
+        let starts = starts_of_table::<LIMBS>(table, &self.frame);
+        self.prove_near::<LIMBS>(&starts, legs_squared, expected, workspace, assembly);
+    }
+
+    fn prove_near<const LIMBS: usize>(
+        &self,
+        starts: &[Eight<Complex<LongNumber<LIMBS>>>],
+        legs_squared: &[Rational; 6],
+        expected: usize,
+        workspace: &mut PlatformWorkspace,
+        assembly: &mut PlatformAssembly,
+    ) {
         let numbers = self.frame.with_legs(&Squares::of(legs_squared));
         let proved = |assembly: &PlatformAssembly| assembly.modes.iter().filter(|m| m.certificate.is_some()).count();
         let before = proved(assembly);
@@ -164,7 +190,7 @@ impl PlatformSolver {
         workspace.found.retain(|found| found.certificate.is_some() && !is_wide(found));
         let mut search = Search::going_on(&numbers, Roots::All, Some(expected), &mut workspace.found);
         let legs = self.frame.long_legs::<LongNumber<LIMBS>>(legs_squared);
-        search.proved_near(&legs, &starts::<LIMBS>(platform, legs_squared, &self.frame));
+        search.proved_near(&legs, starts);
         for found in wide {
             take_in(search.found, found);
         }

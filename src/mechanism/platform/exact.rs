@@ -5,6 +5,7 @@ use crate::algebra::drawn;
 use crate::algebra::univariate::Univariate;
 use crate::assembly::platform::{PlatformAssembly, PlatformSolver, PlatformWorkspace, Route};
 use crate::elimination::multiple_pose::multiple_poses;
+use crate::elimination::platform_basis::{PoseBasis, PosePoints, pose_basis};
 use crate::elimination::platform_degree::{PlatformDegree, platform_degree};
 use crate::elimination::platform_polynomial::{
     PlatformPolynomial, Quotient, are_simple, multiple_platform_polynomial, platform_polynomial,
@@ -87,19 +88,14 @@ impl ExactSide<'_> {
         }
         let degree = platform_degree(self.platform, self.squares);
         let Some(PlatformDegree::Finite { poses, null, curves }) = degree else {
-            let infinite = match degree {
-                Some(PlatformDegree::Infinite { dimension }) => Some(dimension),
-                _ => None,
-            };
-            if infinite.is_some() && search.assembly.route == Route::Affine {
-                search.solver.find_self_motion(self.squares, search.memory, search.assembly);
-            }
-            // Points of a curve are none to be listed.
-            if infinite.is_some() {
-                search.keep_proved();
-            }
-            return PlatformKnowledge { infinite, ..PlatformKnowledge::default() };
+            return self.beyond_rings(search, degree);
         };
+        if poses == 0
+            && let Some(PoseBasis::AtMost(points)) = pose_basis(self.platform, self.squares)
+            && points.count == 0
+        {
+            return self.by_basis(search, &points);
+        }
         // Poses are isolated: none lies on a curve of them.
         search.assembly.self_motion = 0;
         let (mut is_repeated, mut is_longer) = (false, false);
@@ -169,8 +165,55 @@ impl ExactSide<'_> {
             && search.proved() == most
         {
             knowledge.count = Some(at_most(most, why));
+        } else if poses < MOST_POSES
+            && (!proof.is_proved() || !is_done(search, knowledge.reals))
+            && let Some(PoseBasis::AtMost(points)) = pose_basis(self.platform, self.squares)
+        {
+            knowledge.count = self.by_basis(search, &points).count;
         }
         knowledge
+    }
+
+    /// What is known where the rings made for platforms see no finite number of poses.
+    fn beyond_rings(&self, search: &mut Search, degree: Option<PlatformDegree>) -> PlatformKnowledge {
+        let basis = pose_basis(self.platform, self.squares);
+        if let Some(PoseBasis::AtMost(points)) = &basis {
+            return self.by_basis(search, points);
+        }
+        let infinite = match degree {
+            Some(PlatformDegree::Infinite { dimension }) => Some(dimension),
+            _ => None,
+        };
+        if infinite.is_some() && search.assembly.route == Route::Affine {
+            search.solver.find_self_motion(self.squares, search.memory, search.assembly);
+        }
+        // Points of a curve are none to be listed.
+        if infinite.is_some() {
+            search.keep_proved();
+        }
+        let infinite_modulo_prime = matches!(basis, Some(PoseBasis::InfiniteModuloPrime));
+        PlatformKnowledge { infinite, infinite_modulo_prime, ..PlatformKnowledge::default() }
+    }
+
+    /// Looks for the poses that a basis over the rationals leaves room for; these are finitely many.
+    fn by_basis(&self, search: &mut Search, points: &PosePoints) -> PlatformKnowledge {
+        search.assembly.self_motion = 0;
+        search.assembly.motion.clear();
+        let total = points.count;
+        if search.proved() < total
+            && let Some(table) = points.table()
+        {
+            let Search { solver, memory, assembly } = search;
+            solver.solve_by_table::<LIMBS>(&table, self.squares, total, memory, assembly);
+            if search.proved() < total {
+                let Search { solver, memory, assembly } = search;
+                solver.solve_by_table::<MORE_LIMBS>(&table, self.squares, total, memory, assembly);
+            }
+        }
+        if search.proved() == total || search.assembly.total() > total {
+            search.keep_proved();
+        }
+        PlatformKnowledge { count: Some(by_points(total)), ..PlatformKnowledge::default() }
     }
 
     /// What is known where as many poses are proved as the geometry allows: there is no other one, not even on a curve.
@@ -212,6 +255,18 @@ fn beside(null: usize, curves: bool) -> String {
 fn at_most(most: usize, why: &str) -> Bound {
     let because = format!("at most {most} that such a platform can have: {why}");
     Bound { count: most, proof: Proof::Proved, code: Code::GeometryBoundMet, because }
+}
+
+/// The bound that a basis over the rationals gives.
+fn by_points(most: usize) -> Bound {
+    let (code, because) = match most {
+        0 => (Code::NoSolution, "0 poses that there can be: over the rationals 1 is a combination of the equations".to_owned()),
+        _ => (
+            Code::ExactRootsMatched,
+            format!("at most {most} poses that there can be, by a Gröbner basis of the equations over the rationals"),
+        ),
+    };
+    Bound { count: most, proof: Proof::Proved, code, because }
 }
 
 /// The number of poses as it is known from one prime.

@@ -3,6 +3,7 @@
 use super::coefficient::Coefficient;
 use super::monomial::{MOST_VARIABLES, Monomial};
 use super::polynomial::{Equation, Polynomial, Work, remainder, subtract};
+use crate::drawn::Drawn;
 use crate::sort;
 use rug::Integer;
 
@@ -29,7 +30,12 @@ struct Making<C> {
     pairs: Vec<Pair>,
     /// Number of products of words that may still be made.
     effort: u64,
+    /// The leading monomial of every polynomial that was reduced, in their order; `None` for those that vanished.
+    course: Course,
 }
+
+/// What became of the polynomials of a calculation, one after the other.
+type Course = Vec<Option<Monomial>>;
 
 impl<C: Coefficient> Basis<C> {
     /// Returns the basis of the ideal of these equations in `variables` variables; `None` if that takes more products of words
@@ -42,22 +48,7 @@ impl<C: Coefficient> Basis<C> {
     /// Gebauer and Möller 1988, On an installation of Buchberger's algorithm, J. Symbolic Computation 6.
     #[must_use]
     pub fn of(variables: usize, equations: &[Equation], effort: u64) -> Option<Self> {
-        assert!(variables <= MOST_VARIABLES, "at most {MOST_VARIABLES} variables");
-        let mut making = Making { elements: Vec::new(), is_old: Vec::new(), pairs: Vec::new(), effort };
-        let mut given: Vec<Polynomial<C>> = Vec::new();
-        for equation in equations {
-            given.extend(Polynomial::normalised(C::terms(equation.terms())?));
-        }
-        sort::by_key(&mut given, |p| (p.leading(), p.terms.len()));
-        for polynomial in given {
-            let work: Work<C> = polynomial.terms.into_iter().collect();
-            making.admit(work)?;
-        }
-        while let Some(pair) = making.next() {
-            let work = making.difference(pair)?;
-            making.admit(work)?;
-        }
-        making.finished(variables)
+        Making::of(variables, equations, effort, None)?.finished(variables)
     }
 
     /// Returns the dimension of the set of solutions, complex ones included; `None` for the empty set.
@@ -106,12 +97,78 @@ impl<C: Coefficient> Basis<C> {
     }
 }
 
+impl Basis {
+    /// Returns elements of the ideal over the rationals that are its basis if the prime of this run is an ordinary one, with the
+    /// basis modulo that prime. `None` as for [`Self::of`], for either of them; `modular_effort` is for the second one.
+    ///
+    /// Most of the work over the rationals goes into pairs that reduce to 0, and here those that do so modulo the prime are left out.
+    /// All elements lie in the ideal, whatever the prime is. So the monomials that are no multiples of leading ones span the quotient:
+    /// there are at most that many solutions, with multiplicity, and none if an element is a constant.
+    ///
+    /// # Panics
+    /// If there are too many variables.
+    ///
+    /// # Source
+    /// Traverso 1989, Gröbner trace algorithms, ISSAC 1988.
+    #[must_use]
+    pub fn spanning(
+        variables: usize,
+        equations: &[Equation],
+        modular_effort: u64,
+        effort: u64,
+    ) -> Option<(Option<Self>, Basis<Drawn>)> {
+        let modular = Making::<Drawn>::of(variables, equations, modular_effort, None)?;
+        let course = modular.course.clone();
+        let modular = modular.finished(variables)?;
+        let making = Making::<Integer>::of(variables, equations, effort, Some(&course));
+        Some((making.and_then(|making| making.finished(variables)), modular))
+    }
+}
+
 /// Returns the variables of a monomial, a bit for each.
 fn support(monomial: Monomial) -> u32 {
     (0..MOST_VARIABLES).filter(|k| monomial.exponent(*k) > 0).map(|k| 1 << k).sum()
 }
 
 impl<C: Coefficient> Making<C> {
+    /// Returns the elements that the equations lead to, until a constant is among them. With the course of the same calculation modulo a
+    /// prime, polynomials that vanished there are left out; `None` also where the two go apart.
+    fn of(variables: usize, equations: &[Equation], effort: u64, known: Option<&Course>) -> Option<Self> {
+        assert!(variables <= MOST_VARIABLES, "at most {MOST_VARIABLES} variables");
+        let (elements, is_old, pairs, course) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let mut making = Self { elements, is_old, pairs, effort, course };
+        let mut given: Vec<Polynomial<C>> = Vec::new();
+        for equation in equations {
+            given.extend(Polynomial::normalised(C::terms(equation.terms())?));
+        }
+        sort::by_key(&mut given, |p| (p.leading(), p.terms.len()));
+        for polynomial in given {
+            making.go_on(known, |_| Some(polynomial.terms.into_iter().collect()))?;
+        }
+        while let Some(pair) = making.next() {
+            making.go_on(known, |making| making.difference(pair))?;
+        }
+        Some(making)
+    }
+
+    /// Takes the next polynomial in, unless it vanished in a known course.
+    fn go_on(&mut self, known: Option<&Course>, work: impl FnOnce(&Self) -> Option<Work<C>>) -> Option<()> {
+        let known = known.map(|course| course.get(self.course.len()).copied());
+        if let Some(known) = known
+            && known?.is_none()
+        {
+            self.course.push(None);
+            return Some(());
+        }
+        let work = work(self)?;
+        let leading = self.admit(work)?;
+        self.course.push(leading);
+        if leading == Some(Monomial::one()) {
+            self.pairs.clear();
+        }
+        known.is_none_or(|known| known == Some(leading)).then_some(())
+    }
+
     /// Returns the elements by which everything is reduced.
     fn reducers(&self) -> Vec<&Polynomial<C>> {
         self.elements.iter().zip(&self.is_old).filter(|(_, old)| !**old).map(|(p, _)| p).collect()
@@ -135,19 +192,22 @@ impl<C: Coefficient> Making<C> {
         Some(work)
     }
 
-    /// Reduces a polynomial, and adds the remainder as an element; `None` if a degree is too large.
-    fn admit(&mut self, work: Work<C>) -> Option<()> {
+    /// Reduces a polynomial, adds the remainder as an element and returns its leading monomial, if it is not 0; the outer `None` if a
+    /// degree is too large.
+    #[expect(clippy::option_option, reason = "whether it went well, and what remains")]
+    fn admit(&mut self, work: Work<C>) -> Option<Option<Monomial>> {
         let mut effort = self.effort;
         let rest = remainder(work, &self.reducers(), &mut C::unit(), &mut effort)?;
         self.effort = effort;
-        let Some(element) = Polynomial::normalised(rest) else { return Some(()) };
-        self.update_pairs(element.leading())?;
+        let Some(element) = Polynomial::normalised(rest) else { return Some(None) };
+        let leading = element.leading();
+        self.update_pairs(leading)?;
         for (other, old) in self.elements.iter().zip(&mut self.is_old) {
-            *old |= element.leading().divides(other.leading());
+            *old |= leading.divides(other.leading());
         }
         self.elements.push(element);
         self.is_old.push(false);
-        Some(())
+        Some(Some(leading))
     }
 
     /// Adds the pairs of a new element that others do not make redundant, and drops old pairs that it makes redundant.
@@ -228,6 +288,30 @@ mod tests {
         assert_eq!(basis(2, &conics).count(3), None);
         let modular = Basis::<Drawn>::of(2, &conics, 100_000).unwrap();
         assert_eq!((modular.dimension(), modular.count(8)), (Some(0), Some(4)));
+    }
+
+    /// What the zeros modulo a prime leave out of the work over the rationals changes nothing here.
+    #[test]
+    fn elements_that_span_are_the_basis() {
+        let (a, b, c) = (x(0), x(1), x(2));
+        let system = |last: &Equation| {
+            let sphere = a.mul(&a).add(&b.mul(&b)).add(&c.mul(&c)).sub(&number(9));
+            let saddle = a.mul(&b).sub(&c.mul(&number(2)));
+            [sphere, saddle, last.clone()]
+        };
+        for (last, dimension, count) in [
+            (a.add(&b).add(&c).sub(&number(5)), Some(0), Some(4)),
+            (number(7), None, Some(0)),
+            (a.mul(&b).sub(&c.mul(&number(2))), Some(1), None),
+        ] {
+            let (found, modular) = Basis::spanning(3, &system(&last), 100_000, 100_000).unwrap();
+            let found = found.unwrap();
+            assert_eq!(found.elements, basis(3, &system(&last)).elements);
+            assert_eq!((found.dimension(), found.count(8)), (dimension, count));
+            assert_eq!((modular.dimension(), modular.count(8)), (dimension, count));
+        }
+        assert!(Basis::spanning(3, &system(&number(7)), 0, 0).is_some());
+        assert!(Basis::spanning(3, &system(&a), 100_000, 0).unwrap().0.is_none());
     }
 
     /// The cyclic 4-roots form curves.

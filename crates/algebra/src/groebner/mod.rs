@@ -15,5 +15,5 @@ pub use basis::Basis;
 pub use coefficient::Coefficient;
 pub use monomial::MOST_VARIABLES;
 pub use polynomial::Equation;
-pub use ring::FiniteRing;
+pub use ring::{FiniteRing, Quotient};
 pub use solutions::{Solutions, Values, inverse_modulo};

@@ -12,32 +12,21 @@ use std::collections::HashMap;
 /// Maximum number of standard monomials, above that of any small system of kinematics.
 const MOST: usize = 64;
 
-/// The ring of polynomials modulo an ideal with finitely many zeros; an element is its coefficients over the standard
-/// monomials.
+/// The polynomials modulo an ideal with finitely many zeros; an element is its coefficients over the standard monomials.
 #[derive(Clone, Debug)]
-pub struct FiniteRing {
+pub struct Quotient {
     basis: Basis,
     standard: Vec<Monomial>,
     places: HashMap<Monomial, usize>,
-    /// The trace of the multiplication by each standard monomial.
-    traces: Vec<Rational>,
-    /// The matrix of traces of the products of standard monomials: sums of their values over the solutions, with
-    /// multiplicity.
-    products: Vec<Vec<Rational>>,
 }
 
-/// An element by its coefficients.
-type Element = Vec<Rational>;
-
-impl FiniteRing {
-    /// Returns the ring of a basis; `None` if there are infinitely many zeros, or more than 64.
+impl Quotient {
+    /// Returns the quotient by the ideal of a basis; `None` if there are infinitely many zeros, or more than `most`.
     #[must_use]
-    pub fn of(basis: &Basis) -> Option<Self> {
-        let standard = basis.standard(MOST)?;
+    pub fn of(basis: &Basis, most: usize) -> Option<Self> {
+        let standard = basis.standard(most)?;
         let places = standard.iter().enumerate().map(|(k, m)| (*m, k)).collect();
-        let mut ring = Self { basis: basis.clone(), standard, places, traces: Vec::new(), products: Vec::new() };
-        ring.multiply()?;
-        Some(ring)
+        Some(Self { basis: basis.clone(), standard, places })
     }
 
     /// Returns the dimension: the number of solutions, complex ones included, with multiplicity.
@@ -46,15 +35,9 @@ impl FiniteRing {
         self.standard.len()
     }
 
-    /// Returns the number of distinct solutions: the rank of the matrix of traces (Hermite).
-    #[must_use]
-    pub fn distinct(&self) -> usize {
-        rank(self.products.clone())
-    }
-
     /// Returns the element represented by a polynomial; `None` for degrees above 127.
     #[must_use]
-    pub fn element(&self, equation: &Equation) -> Option<Element> {
+    pub fn element(&self, equation: &Equation) -> Option<Vec<Rational>> {
         let mut denominator = Integer::from(1);
         for c in equation.terms().values() {
             denominator.lcm_mut(c.denom());
@@ -72,6 +55,57 @@ impl FiniteRing {
         Some(element)
     }
 
+    /// Returns the matrix of the multiplication with a polynomial: its columns are the products with the standard monomials, of which 1
+    /// is the first.
+    #[must_use]
+    pub fn multiplication(&self, by: &Equation) -> Option<Vec<Vec<Rational>>> {
+        let column = |m: &Monomial| self.element(&by.mul(&Equation::monomial(*m)));
+        self.standard.iter().map(column).collect()
+    }
+}
+
+/// The quotient with the traces of its elements.
+#[derive(Clone, Debug)]
+pub struct FiniteRing {
+    quotient: Quotient,
+    /// The trace of the multiplication by each standard monomial.
+    traces: Vec<Rational>,
+    /// The matrix of traces of the products of standard monomials: sums of their values over the solutions, with
+    /// multiplicity.
+    products: Vec<Vec<Rational>>,
+}
+
+/// An element by its coefficients.
+type Element = Vec<Rational>;
+
+impl FiniteRing {
+    /// Returns the ring of a basis; `None` if there are infinitely many zeros, or more than 64.
+    #[must_use]
+    pub fn of(basis: &Basis) -> Option<Self> {
+        let quotient = Quotient::of(basis, MOST)?;
+        let mut ring = Self { quotient, traces: Vec::new(), products: Vec::new() };
+        ring.multiply()?;
+        Some(ring)
+    }
+
+    /// Returns the dimension: the number of solutions, complex ones included, with multiplicity.
+    #[must_use]
+    pub fn dimension(&self) -> usize {
+        self.quotient.dimension()
+    }
+
+    /// Returns the number of distinct solutions: the rank of the matrix of traces (Hermite).
+    #[must_use]
+    pub fn distinct(&self) -> usize {
+        rank(self.products.clone())
+    }
+
+    /// Returns the element represented by a polynomial; `None` for degrees above 127.
+    #[must_use]
+    pub fn element(&self, equation: &Equation) -> Option<Element> {
+        self.quotient.element(equation)
+    }
+
     /// Returns the trace of the multiplication with an element.
     pub(super) fn trace(&self, element: &Element) -> Rational {
         dot(element, &self.traces)
@@ -82,27 +116,22 @@ impl FiniteRing {
         self.products.iter().map(|row| dot(element, row)).collect()
     }
 
-    /// Returns the matrix of the multiplication with a linear form: its columns are the products with the standard monomials.
-    pub(super) fn multiplication(&self, form: &Equation) -> Option<Vec<Element>> {
-        let column = |m: &Monomial| self.element(&form.mul(&Equation::monomial(*m)));
-        self.standard.iter().map(column).collect()
-    }
-
     /// Finds the traces of products: the products of pairs of standard monomials, one variable after the other.
     fn multiply(&mut self) -> Option<()> {
-        let size = self.standard.len();
+        let Quotient { basis, standard, places } = &self.quotient;
+        let size = standard.len();
         let variables: Option<Vec<Vec<Element>>> =
-            (0..self.basis.variables).map(|k| self.multiplication(&Equation::variable(k))).collect();
+            (0..basis.variables).map(|k| self.quotient.multiplication(&Equation::variable(k))).collect();
         let variables = variables?;
         let unit = |k: usize| -> Element { (0..size).map(|i| Rational::from(i32::from(i == k))).collect() };
         // The columns of the multiplication with each standard monomial: smaller ones come first.
         let mut tables: Vec<Vec<Element>> = Vec::new();
-        for monomial in &self.standard {
-            let factor = (0..self.basis.variables).find(|k| monomial.exponent(*k) > 0);
+        for monomial in standard {
+            let factor = (0..basis.variables).find(|k| monomial.exponent(*k) > 0);
             let table = match factor {
                 None => (0..size).map(unit).collect(),
                 Some(k) => {
-                    let rest = self.places.get(&monomial.over(Monomial::variable(k)))?;
+                    let rest = places.get(&monomial.over(Monomial::variable(k)))?;
                     tables[*rest].iter().map(|column| applied(&variables[k], column)).collect()
                 }
             };
@@ -118,8 +147,8 @@ impl FiniteRing {
     /// Returns the characteristic polynomial of the multiplication with a linear form, by the sums of the powers of its roots, and
     /// the powers of the form.
     pub(super) fn characteristic(&self, form: &Equation) -> Option<(Univariate<Rational>, Vec<Element>)> {
-        let table = self.multiplication(form)?;
-        let size = self.standard.len();
+        let table = self.quotient.multiplication(form)?;
+        let size = self.dimension();
         let mut powers = vec![self.element(&Equation::one())?];
         for k in 0..size {
             powers.push(applied(&table, &powers[k]));
