@@ -10,6 +10,7 @@ use crate::algebra::ring::Ring;
 use crate::algebra::text::Names;
 use crate::catalogue::entry::Case;
 use crate::closure::study::{Leg, scalar};
+use crate::elimination::platform_basis::{PoseBasis, pose_basis};
 use crate::elimination::platform_degree::{PlatformDegree, platform_degree};
 use crate::elimination::platform_polynomial::{
     Coordinate, PlatformPolynomial, multiple_platform_polynomial, platform_polynomial,
@@ -182,9 +183,7 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
         defined = Some(super::equation::primitive(&definition(found, &platform)));
     } else {
         without = Some(match degree {
-            Some(PlatformDegree::Infinite { dimension }) => {
-                format!("the poses are not isolated: a self-motion of dimension {dimension}, real or complex")
-            }
+            Some(PlatformDegree::Infinite { dimension }) => not_in_rings(&platform, &squares, dimension),
             Some(PlatformDegree::Finite { poses: 0, .. }) => "no pose, real or complex".to_owned(),
             Some(PlatformDegree::Finite { poses, .. }) => {
                 format!("{poses} poses with multiplicity, but no coordinate in which they have a polynomial")
@@ -204,6 +203,19 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
         definition: defined,
         warnings,
     })
+}
+
+/// Says what is known of poses of which the rings made for platforms see no finite number.
+fn not_in_rings(platform: &Platform<Rational>, squares: &[Rational; 6], dimension: usize) -> String {
+    match pose_basis(platform, squares) {
+        Some(PoseBasis::AtMost(points)) => {
+            format!("{} poses with multiplicity at most, but no coordinate in which they have a polynomial", points.count)
+        }
+        Some(PoseBasis::InfiniteModuloPrime) => format!(
+            "the poses are not isolated modulo a prime drawn at random: a self-motion of dimension {dimension}, real or complex"
+        ),
+        None => "it is not decided whether there are finitely many poses".to_owned(),
+    }
 }
 
 /// Returns the equations of one set of legs alone, with the names of their variables.

@@ -114,6 +114,21 @@ fn platforms_nearly_flat_or_nearly_special() {
 }
 
 #[test]
+fn platforms_without_any_pose() {
+    check_all("empty");
+}
+
+#[test]
+fn platforms_beside_congruent_ones_have_finitely_many_poses() {
+    check_all("beside");
+}
+
+#[test]
+fn multiple_poses_that_differ_by_a_turn_about_one_axis() {
+    check_all("shared");
+}
+
+#[test]
 fn special_platforms() {
     check_all("platform");
 }
