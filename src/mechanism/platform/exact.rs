@@ -3,7 +3,8 @@
 use super::roots::are_all_matched;
 use crate::algebra::drawn;
 use crate::algebra::univariate::Univariate;
-use crate::assembly::platform::{PlatformAssembly, PlatformSolver, PlatformWorkspace, Route};
+use crate::assembly::platform::{PlatformAssembly, PlatformMode, PlatformSolver, PlatformWorkspace, Route};
+use crate::certify::pose::are_apart;
 use crate::elimination::multiple_pose::multiple_poses;
 use crate::elimination::platform_basis::{PoseBasis, PosePoints, pose_basis};
 use crate::elimination::platform_degree::{PlatformDegree, platform_degree};
@@ -37,10 +38,20 @@ pub struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Poses that are proved, with multiplicity.
+    /// Poses that are proved, and proved to be different, with multiplicity: wide balls of poses that nearly coincide may hold one of them
+    /// both.
     fn proved(&self) -> usize {
-        let proved = self.assembly.modes.iter().filter(|mode| mode.certificate.is_some());
-        proved.map(|mode| mode.multiplicity).sum()
+        let mut counted: Vec<(&PlatformMode, f64)> = Vec::new();
+        for mode in &self.assembly.modes {
+            let Some(certificate) = mode.certificate else { continue };
+            let apart = |(other, radius): &(&PlatformMode, f64)| {
+                are_apart(&mode.study, certificate.radius, &other.study, *radius)
+            };
+            if counted.iter().all(apart) {
+                counted.push((mode, certificate.radius));
+            }
+        }
+        counted.iter().map(|(mode, _)| mode.multiplicity).sum()
     }
 
     /// Counts the certified modes of multiplicity 1.
@@ -203,9 +214,11 @@ impl ExactSide<'_> {
         if search.proved() < total
             && let Some(table) = points.table()
         {
+            let before = search.proved();
             let Search { solver, memory, assembly } = search;
             solver.solve_by_table::<LIMBS>(&table, self.squares, total, memory, assembly);
-            if search.proved() < total {
+            // Where nothing is gained, multiple poses are missing, which more digits do not make simple.
+            if (before + 1..total).contains(&search.proved()) {
                 let Search { solver, memory, assembly } = search;
                 solver.solve_by_table::<MORE_LIMBS>(&table, self.squares, total, memory, assembly);
             }
