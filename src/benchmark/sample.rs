@@ -189,7 +189,8 @@ fn draw(set: Set, data: Data, seed: u64, index: u64) -> Result<Sample> {
         if let Some(spherical) = layout.spherical {
             // Angles stay away from the ends of the second angle's range, where the other two are not unique.
             for k in 0..3 {
-                planted[spherical + k] = if k == 1 { random.random_range(0.1..3.0) } else { random.random_range(-PI..PI) };
+                planted[spherical + k] =
+                    if k == 1 { random.random_range(0.1..3.0) } else { random.random_range(-PI..PI) };
             }
         }
         if set == Set::NearSingular {

@@ -183,7 +183,8 @@ impl Display for Timings {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:<28}{:>10}{:>10}{:>10}{:>10}", "microseconds, one core", "median", "of faer", "mean", "of faer")?;
         for StageTimes { name, median, mean, .. } in &self.rows {
-            let [of_median, of_mean] = self.rows.first().map_or([f64::NAN; 2], |own| [median / own.median, mean / own.mean]);
+            let [of_median, of_mean] =
+                self.rows.first().map_or([f64::NAN; 2], |own| [median / own.median, mean / own.mean]);
             write!(f, "\n{name:<28}{median:>10.1}{of_median:>10.2}{mean:>10.1}{of_mean:>10.2}")?;
         }
         Ok(())

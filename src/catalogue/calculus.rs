@@ -75,8 +75,8 @@ impl CalculusFile {
 
 /// The keys of the lists in questions.
 const PARTS: [&str; 15] = [
-    "element", "rotation", "pair", "screw", "point", "line", "complex", "plane", "force", "couple", "shaft", "gear", "relation",
-    "wheel", "interval",
+    "element", "rotation", "pair", "screw", "point", "line", "complex", "plane", "force", "couple", "shaft", "gear",
+    "relation", "wheel", "interval",
 ];
 
 /// Reads a file of the calculus.
@@ -140,7 +140,9 @@ pub(super) fn parts<'n>(
 pub(super) fn none(scope: &Scope<'_>, table: &Table<'_>, find: &str) -> Result<()> {
     match PARTS.into_iter().find_map(|key| Some((key, table.get(key)?))) {
         None => Ok(()),
-        Some((key, node)) => Err(scope.fail(node.line, format!("found [[{key}]], expected none for `find = \"{find}\"`"))),
+        Some((key, node)) => {
+            Err(scope.fail(node.line, format!("found [[{key}]], expected none for `find = \"{find}\"`")))
+        }
     }
 }
 

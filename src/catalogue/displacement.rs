@@ -130,7 +130,8 @@ pub(super) fn displacement(scope: &Scope<'_>, table: &Table<'_>) -> Result<Displ
     let own = ["axes", "through", "share", "coordinates", "at", "rate", "second_rate"];
     let keys = [&own, navigation::KEYS.as_slice(), tile::KEYS.as_slice()].concat();
     let (find, mechanism, line) = found(scope, table, &words, &keys)?;
-    let further = navigation::KEYS.map(|key| (key, "navigation")).into_iter().chain(tile::KEYS.map(|key| (key, "tile")));
+    let further =
+        navigation::KEYS.map(|key| (key, "navigation")).into_iter().chain(tile::KEYS.map(|key| (key, "tile")));
     let owners = [
         ("axes", "three-rotations"),
         ("through", "line"),

@@ -172,7 +172,10 @@ fn trochoid(scope: &Scope<'_>, mechanism: &Table<'_>) -> Result<Gearing> {
         internal: is_internal(scope, mechanism)?,
     };
     if rolling.internal && rolling.fixed == rolling.rolling {
-        return Err(scope.fail(mechanism.line(), "found a circle in one of its own radius, which does not roll, expected two radii"));
+        return Err(scope.fail(
+            mechanism.line(),
+            "found a circle in one of its own radius, which does not roll, expected two radii",
+        ));
     }
     Ok(Gearing::Trochoid(Box::new(rolling)))
 }
@@ -208,7 +211,10 @@ fn train(scope: &Scope<'_>, table: &Table<'_>) -> Result<Gearing> {
             let node_of_ratio = scope.need(&own, "ratio")?;
             let factor = ratio(scope, node_of_ratio, "ratio")?;
             if a == b || factor == 0 {
-                return Err(scope.fail(node.line, "found a gear of one shaft or of ratio 0, expected two shafts and another ratio"));
+                return Err(scope.fail(
+                    node.line,
+                    "found a gear of one shaft or of ratio 0, expected two shafts and another ratio",
+                ));
             }
             // (b - carrier) = ratio (a - carrier)
             let mut relation = vec![Rational::new(); count];
@@ -251,9 +257,11 @@ fn wheels(scope: &Scope<'_>, table: &Table<'_>, mechanism: &Table<'_>) -> Result
             roller: pair(&own, "roller", Quantity::Ratio)?,
             radius: positive(scope, scope.need(&own, "radius")?, "radius")?,
         };
-        let along = Rational::from(&wheel.drive[0] * &wheel.roller[0]) + Rational::from(&wheel.drive[1] * &wheel.roller[1]);
+        let along =
+            Rational::from(&wheel.drive[0] * &wheel.roller[0]) + Rational::from(&wheel.drive[1] * &wheel.roller[1]);
         if along == 0 {
-            let message = "found a roller across the drive of its wheel, expected one that is not: such a wheel drives nothing";
+            let message =
+                "found a roller across the drive of its wheel, expected one that is not: such a wheel drives nothing";
             return Err(scope.fail(node.line, message));
         }
         list.push(wheel);
@@ -312,7 +320,9 @@ fn pair(scope: &Scope<'_>, mechanism: &Table<'_>) -> Result<Gearing> {
                 let degrees = angle.radians().to_degrees();
                 let least = if key == "helix" { 0.0 } else { f64::MIN_POSITIVE };
                 if !(least..60.0).contains(&degrees.abs()) || degrees < 0.0 {
-                    return Err(scope.fail(node.line, format!("found {degrees} deg as `{key}`, expected less than 60 deg")));
+                    return Err(
+                        scope.fail(node.line, format!("found {degrees} deg as `{key}`, expected less than 60 deg"))
+                    );
                 }
                 Ok(angle)
             }

@@ -43,7 +43,11 @@ pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
             "the [mechanism] of an arm",
             &["kind", "convention", "joints", "base", "tool", "home", "limits"],
         )?,
-        _ => scope.table(node, "the [mechanism] of a loop", &["kind", "convention", "joints", "bonds", "home", "limits"])?,
+        _ => scope.table(
+            node,
+            "the [mechanism] of a loop",
+            &["kind", "convention", "joints", "bonds", "home", "limits"],
+        )?,
     };
     let convention = table.get("convention").ok_or_else(|| {
         let expected = match kind {
@@ -56,7 +60,10 @@ pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
     let convention = scope.word(convention, "convention", &known[..if kind == Kind::Arm { 3 } else { 4 }])?;
     let (key, other) = if convention == "bonds" { ("bonds", "joints") } else { ("joints", "bonds") };
     if let Some(other) = table.get(other) {
-        let message = format!("found `{}` with convention \"{convention}\", expected `{key}`", if key == "joints" { "bonds" } else { "joints" });
+        let message = format!(
+            "found `{}` with convention \"{convention}\", expected `{key}`",
+            if key == "joints" { "bonds" } else { "joints" }
+        );
         return Err(scope.fail(other.line, message));
     }
     let joints = scope.need(&table, key)?;
@@ -87,7 +94,13 @@ pub(super) fn mechanism(scope: &Scope<'_>, node: &Node) -> Result<Mechanism> {
     let design = if kind == Kind::Arm { Design::Arm(chain) } else { Design::Loop(chain) };
     let joints =
         if nodes.iter().any(|node| label(node).is_some()) { nodes.iter().map(label).collect() } else { vec![] };
-    Ok(Mechanism { design, limits, platform_limits: PlatformLimits::default(), case: None, labels: Labels { joints, ..Labels::default() } })
+    Ok(Mechanism {
+        design,
+        limits,
+        platform_limits: PlatformLimits::default(),
+        case: None,
+        labels: Labels { joints, ..Labels::default() },
+    })
 }
 
 /// Returns the name of a joint, if it has one.
@@ -119,7 +132,11 @@ pub(super) fn check_kinds(
     let is_overconstrained_loop = expected.0 == 7 && (2..7).contains(&count);
     let is_arm = expected.0 == 6 && (1..=MOST_OF_ARM).contains(&count);
     let is_any = is_arm || scope.chains == Chains::Any && (count > expected.0 || expected.0 == 6 && count > 0);
-    if is_any || count == expected.0 || is_overconstrained_loop || (expected.0 == 7 && count == 8 && spherical_joints == 2) {
+    if is_any
+        || count == expected.0
+        || is_overconstrained_loop
+        || (expected.0 == 7 && count == 8 && spherical_joints == 2)
+    {
         return Ok(());
     }
     let joints = kinds.len();
@@ -139,14 +156,8 @@ pub(super) fn check_kinds(
         (_, true) => format!("a pose leaves {freedoms} undetermined"),
         (_, false) => "no joint moves it".to_owned(),
     };
-    Err(scope.fail(
-        line,
-        format!(
-            "found {joints} joints with {count} variables ({}), {}; {what}",
-            counts(),
-            expected.1
-        ),
-    ))
+    Err(scope
+        .fail(line, format!("found {joints} joints with {count} variables ({}), {}; {what}", counts(), expected.1)))
 }
 
 /// How many variables each type of joint counts.
@@ -223,7 +234,10 @@ fn bond(scope: &Scope<'_>, node: &Node) -> Result<Joint> {
     if !(sine >= 0.0 && at_atom.radians().abs() <= 3.2) {
         return Err(scope.fail(
             node.line,
-            format!("found the angle {:.1} deg between two bonds, expected one from 0 to 180 deg", at_atom.radians().to_degrees()),
+            format!(
+                "found the angle {:.1} deg between two bonds, expected one from 0 to 180 deg",
+                at_atom.radians().to_degrees()
+            ),
         ));
     }
     let (a, alpha, theta0) = (Number::zero(), at_atom.supplement(), Angle::zero());

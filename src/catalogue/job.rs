@@ -29,7 +29,8 @@ pub(super) fn entry(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<En
     };
     let source = table.get("source").map(|node| source(scope, node)).transpose()?;
     let notes = table.get("notes").map(|node| scope.text(node, "notes").map(str::to_owned)).transpose()?;
-    let Mechanism { design, limits, platform_limits, case, labels } = mechanism(scope, scope.need(&table, "mechanism")?)?;
+    let Mechanism { design, limits, platform_limits, case, labels } =
+        mechanism(scope, scope.need(&table, "mechanism")?)?;
     let shared = scope.take_warnings();
     let mut cases = cases(scope, &table, &design, case)?;
     for case in &mut cases {
@@ -45,7 +46,19 @@ pub(super) fn entry(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<En
         first.expected = top;
     }
     let (rounded, reading) = (scope.is_rounded(), scope.reading.clone());
-    Ok(Entry { name: name.to_owned(), title, source, notes, design, limits, platform_limits, cases, rounded, reading, labels })
+    Ok(Entry {
+        name: name.to_owned(),
+        title,
+        source,
+        notes,
+        design,
+        limits,
+        platform_limits,
+        cases,
+        rounded,
+        reading,
+        labels,
+    })
 }
 
 /// Reads the poses of an arm, the inputs of a loop, the legs of a platform: one at least, or a loop that needs no input.

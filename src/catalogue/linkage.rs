@@ -121,7 +121,8 @@ pub(super) fn lives_in(root: &Node) -> Option<String> {
 /// Reads a linkage file.
 pub(super) fn linkage(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<LinkageFile> {
     let heading = heading_with(scope, root, name, &["input", "solution", "trace", "configuration"])?;
-    let keys = ["title", "source", "notes", "units", "mechanism", "configuration", "expected", "input", "solution", "trace"];
+    let keys =
+        ["title", "source", "notes", "units", "mechanism", "configuration", "expected", "input", "solution", "trace"];
     let table = scope.table(root, "the file", &keys)?;
     let node = scope.need(&table, "mechanism")?;
     let keys = ["kind", "space", "ground", "joints", "bodies", "mass", "gravity"];
@@ -142,7 +143,12 @@ pub(super) fn linkage(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<
         }
     } else {
         let line = mechanism.line();
-        cases.push(LinkageCase { given: Vec::new(), accuracy: Accuracy::Exact, expected: LinkageClaims::default(), line });
+        cases.push(LinkageCase {
+            given: Vec::new(),
+            accuracy: Accuracy::Exact,
+            expected: LinkageClaims::default(),
+            line,
+        });
     }
     // Claims at the top of a file concern its first case.
     let top = claims(scope, &table, &linkage)?;

@@ -51,7 +51,9 @@ pub(super) fn configuration(scope: &Scope<'_>, node: &Node, linkage: &Linkage) -
     }
     if let Some(missing) = turns.iter().position(Option::is_none) {
         let name = &linkage.bodies[missing].name;
-        return Err(scope.fail(node.line, format!("found a configuration without the body {name}, expected every body")));
+        return Err(
+            scope.fail(node.line, format!("found a configuration without the body {name}, expected every body"))
+        );
     }
     Ok(LinkageConfiguration { turns: turns.into_iter().flatten().collect(), origins, exact, line: node.line })
 }

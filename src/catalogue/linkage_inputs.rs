@@ -75,14 +75,10 @@ impl LinkageFile {
                     let exact = distance.is_exact() && root(&square).1;
                     (Given::Shift { joint, shift: Rational::from(distance.rational() / length), line }, exact)
                 }
-                (Pair::Revolute, InputValue::Angle(angle)) => {
-                    given_turn(joint, angle, line)
-                }
+                (Pair::Revolute, InputValue::Angle(angle)) => given_turn(joint, angle, line),
                 _ => return Err(Error::Invalid(format!("found a value of another kind for the joint {name}"))),
             };
-            let is_other = |one: &Given| {
-                !matches!(one, Given::Turn { joint: old, .. } | Given::Shift { joint: old, .. } if *old == joint)
-            };
+            let is_other = |one: &Given| !matches!(one, Given::Turn { joint: old, .. } | Given::Shift { joint: old, .. } if *old == joint);
             case.given.retain(is_other);
             case.accuracy = case.accuracy.max(given.accuracy(exact));
             case.given.push(given);
@@ -156,8 +152,9 @@ impl SphereFile {
             Some((number, point, bodies[number].point(point)?.clone()))
         });
         found.ok_or_else(|| {
-            let points =
-                bodies.iter().flat_map(|body| body.points.iter().map(move |(point, _)| format!("{}.{point}", body.name)));
+            let points = bodies
+                .iter()
+                .flat_map(|body| body.points.iter().map(move |(point, _)| format!("{}.{point}", body.name)));
             let known: Vec<String> = points.take(12).collect();
             Error::Invalid(format!("found the point {asked}, expected a point of a body: {}", known.join(", ")))
         })

@@ -87,7 +87,7 @@ fn mass(scope: &Scope<'_>, node: &Node) -> Result<Mass> {
     let (x, y) = (scope.length(x, "centre")?, scope.length(y, "centre")?);
     let weight = scope.number(scope.need(&table, "mass")?, Quantity::Ratio, "mass")?;
     let is_exact = x.is_exact() && y.is_exact() && weight.is_exact();
-    let exact = is_exact
-        .then(|| (weight.rational().clone(), Gaussian { re: x.rational().clone(), im: y.rational().clone() }));
+    let exact =
+        is_exact.then(|| (weight.rational().clone(), Gaussian { re: x.rational().clone(), im: y.rational().clone() }));
     Ok(Mass { mass: number("mass")?, centre: [x.to_f64(), y.to_f64()], inertia: number("inertia")?, exact })
 }

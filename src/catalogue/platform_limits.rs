@@ -53,7 +53,8 @@ fn pair(scope: &Scope<'_>, node: &Node, key: &str) -> Result<[Rational; 2]> {
     let [low, high] = [&lengths[0], &lengths[1]];
     if *low.rational() < 0 || low.rational() > high.rational() {
         let (low, high) = (low.to_f64(), high.to_f64());
-        let message = format!("found the limits [{low}, {high}] of a leg in metres, expected 0 or more, the lower one first");
+        let message =
+            format!("found the limits [{low}, {high}] of a leg in metres, expected 0 or more, the lower one first");
         return Err(scope.fail(node.line, message));
     }
     Ok([low, high].map(|length| Rational::from(length.rational().square_ref())))

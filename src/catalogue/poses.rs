@@ -63,7 +63,18 @@ impl<'a> PoseRows<'a> {
         let reading = reading.clone();
         let first = first.trim_start_matches('\u{feff}').trim();
         if first.starts_with('{') {
-            return Ok((Self { path, design, reading, form: Form::Objects, columns: Vec::new(), powers: None, are_doubles: false }, true));
+            return Ok((
+                Self {
+                    path,
+                    design,
+                    reading,
+                    form: Form::Objects,
+                    columns: Vec::new(),
+                    powers: None,
+                    are_doubles: false,
+                },
+                true,
+            ));
         }
         let names: Vec<&str> = first.split(',').map(|name| name.trim().trim_matches('"')).collect();
         for (form, own) in
@@ -287,7 +298,15 @@ pub fn typed_pose(text: &str, option: &str, design: &Design, reading: &Reading) 
         (3, 3) => Form::Angles,
         (lengths, others) => return Err(fail(&format!("{lengths} and {others} values in {option}"))),
     };
-    let rows = PoseRows { path: "--at", design, reading: reading.clone(), form, columns: Vec::new(), powers: None, are_doubles: false };
+    let rows = PoseRows {
+        path: "--at",
+        design,
+        reading: reading.clone(),
+        form,
+        columns: Vec::new(),
+        powers: None,
+        are_doubles: false,
+    };
     let (placement, warning) = rows.placement(&values).map_err(|fault| fault.of_option(option))?;
     let mut case = of_design(design, placement, 1);
     case.warnings.extend(warning);

@@ -135,7 +135,8 @@ impl Turn {
             Self::Quaternion(quaternion) => {
                 let rotation = rotation_of(quaternion.each_ref().map(Number::rational));
                 let algebraic = field.and_then(|field| {
-                    let whole = Motion { rotation: rotation.clone(), translation: std::array::from_fn(|_| Rational::new()) };
+                    let whole =
+                        Motion { rotation: rotation.clone(), translation: std::array::from_fn(|_| Rational::new()) };
                     whole.map(|x| field.element(&Closed::rational(x.clone())))
                 });
                 let enclosed = rotation.each_ref().map(|row| row.each_ref().map(Enclosure::of));
@@ -229,7 +230,8 @@ pub(super) fn numbers<const N: usize>(scope: &Scope<'_>, text: &str, line: usize
     let nodes: Vec<Node> =
         text.split_whitespace().map(|word| Node { line, value: Value::Text(word.to_owned()) }).collect();
     let count = nodes.len();
-    <[Node; N]>::try_from(nodes).map_err(|_| scope.fail(line, format!("found {count} numbers in `{what}`, expected {N}")))
+    <[Node; N]>::try_from(nodes)
+        .map_err(|_| scope.fail(line, format!("found {count} numbers in `{what}`, expected {N}")))
 }
 
 /// Returns the zero displacement.

@@ -60,7 +60,9 @@ pub(super) fn tip_of<'a>(scope: &Scope<'_>, tree: &'a Tree, base: Option<&str>) 
         ([_], Some(((_, link), _))) => Some((link, "by its name, on the only arm")),
         ([arm], None) if arm.leaves.len() == 1 => Some((arm.leaves[0], "the end of the only arm")),
         // Behind its last link only a gripper moves.
-        ([arm], None) if arm.leaves.is_empty() => outermost(tree, arm).map(|link| (link, "the last link of the only arm")),
+        ([arm], None) if arm.leaves.is_empty() => {
+            outermost(tree, arm).map(|link| (link, "the last link of the only arm"))
+        }
         (_, Some(((_, link), _))) if rivals == 1 => Some((link, "by its name")),
         _ => None,
     };
@@ -108,6 +110,8 @@ fn arms<'a>(tree: &'a Tree, base: Option<&str>) -> BTreeMap<Vec<usize>, Arm<'a>>
     // If more joints follow, or too many are there, it is the middle of an arm, unless a link ends there or is named as a tip.
     let all: Vec<Vec<usize>> = arms.keys().cloned().collect();
     let is_middle = |joints: &[usize]| all.iter().any(|other| other.len() > joints.len() && other.starts_with(joints));
-    arms.retain(|joints, arm| (JOINTS.contains(&joints.len()) && !is_middle(joints)) || !arm.leaves.is_empty() || arm.named().is_some());
+    arms.retain(|joints, arm| {
+        (JOINTS.contains(&joints.len()) && !is_middle(joints)) || !arm.leaves.is_empty() || arm.named().is_some()
+    });
     arms
 }

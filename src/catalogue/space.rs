@@ -115,7 +115,8 @@ pub(super) fn space(scope: &mut Scope<'_>, top: &Node, name: &str) -> Result<Spa
         first.expected = top;
     }
     let names: Vec<&str> = linkage.bodies.iter().map(|body| body.name.as_str()).collect();
-    let configuration = table.get("configuration").map(|node| configuration(scope, node, &names, linkage.ground, false));
+    let configuration =
+        table.get("configuration").map(|node| configuration(scope, node, &names, linkage.ground, false));
     let configuration = configuration.transpose()?;
     Ok(SpaceFile { heading, linkage, cases, exact, configuration, reading: scope.reading.clone() })
 }
@@ -254,9 +255,8 @@ fn axes(scope: &Scope<'_>, table: &Table<'_>, name: &str, line: usize) -> Result
     let (factor, exact) = root(&Rational::from(&dot(&a, &a) / &dot(&b, &b)));
     if !exact {
         let [a, b] = [&a, &b].map(|v| dot(v, v).to_f64().sqrt());
-        let message = format!(
-            "found axes of lengths {a} and {b} at the joint {name}, expected lengths of rational ratio"
-        );
+        let message =
+            format!("found axes of lengths {a} and {b} at the joint {name}, expected lengths of rational ratio");
         return Err(scope.fail(line, message));
     }
     Ok([a, b.map(|c| c * &factor)])
@@ -346,10 +346,17 @@ fn given(linkage: &SpaceLinkage, joint: usize, value: &InputValue, line: usize) 
         }
         (SpacePair::Revolute(_) | SpacePair::Prismatic(_) | SpacePair::Leg | SpacePair::UniversalLeg(_), _) => {
             let wanted = if own.is_distance() == Some(true) { "a distance" } else { "an angle" };
-            return Err(Error::Invalid(format!("found a value of another kind for the joint {}, expected {wanted}", own.name)));
+            return Err(Error::Invalid(format!(
+                "found a value of another kind for the joint {}, expected {wanted}",
+                own.name
+            )));
         }
         _ => {
-            let message = format!("found the joint {} of type {} as an input, expected R, P, SPS or UPU", own.name, own.pair.word());
+            let message = format!(
+                "found the joint {} of type {} as an input, expected R, P, SPS or UPU",
+                own.name,
+                own.pair.word()
+            );
             return Err(Error::Invalid(message));
         }
     };
@@ -388,7 +395,10 @@ fn length(scope: &Scope<'_>, node: &Node) -> Result<Number> {
 
 fn without_value(scope: &Scope<'_>, joint: &SpaceJoint, line: usize) -> Error {
     let word = joint.pair.word();
-    scope.fail(line, format!("found an input of the joint {} of type {word}, expected one of type R, P, SPS or UPU", joint.name))
+    scope.fail(
+        line,
+        format!("found an input of the joint {} of type {word}, expected one of type R, P, SPS or UPU", joint.name),
+    )
 }
 
 fn value_in(scope: &Scope<'_>, joint: &SpaceJoint, table: &Table<'_>) -> Result<InputValue> {
@@ -399,7 +409,10 @@ fn value_in(scope: &Scope<'_>, joint: &SpaceJoint, table: &Table<'_>) -> Result<
         (None, None, Some(node)) if is_distance => Ok(InputValue::Distance(length(scope, node)?)),
         _ => {
             let wanted = if is_distance { "`distance`" } else { "exactly one of `angle` and `tan_half`" };
-            Err(scope.fail(table.line(), format!("found an input of the joint {} without {wanted}, expected one", joint.name)))
+            Err(scope.fail(
+                table.line(),
+                format!("found an input of the joint {} without {wanted}, expected one", joint.name),
+            ))
         }
     }
 }
@@ -467,7 +480,10 @@ impl SpaceFile {
             let joint = joints.iter().position(|joint| joint.name == *name).ok_or_else(|| {
                 let known: Vec<&str> = joints.iter().take(12).map(|joint| joint.name.as_str()).collect();
                 let name: String = name.chars().take(40).collect();
-                Error::Invalid(format!("found the unknown joint `{name}` as an input, expected one of {}", known.join(", ")))
+                Error::Invalid(format!(
+                    "found the unknown joint `{name}` as an input, expected one of {}",
+                    known.join(", ")
+                ))
             })?;
             let (one, exact) = given(&self.linkage, joint, value, case.line)?;
             case.given.retain(|other| other.joint != Some(joint));

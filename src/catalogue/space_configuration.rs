@@ -59,7 +59,9 @@ pub(super) fn configuration(
     }
     if let Some(missing) = places.iter().position(Option::is_none) {
         let name = bodies[missing];
-        return Err(scope.fail(node.line, format!("found a configuration without the body {name}, expected every body")));
+        return Err(
+            scope.fail(node.line, format!("found a configuration without the body {name}, expected every body"))
+        );
     }
     Ok(SpaceConfiguration { places: places.into_iter().flatten().collect(), exact, line: node.line })
 }

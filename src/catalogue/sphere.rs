@@ -94,7 +94,8 @@ pub struct SphereClaim {
 /// Reads a file whose `space` is the sphere.
 pub(super) fn sphere(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<SphereFile> {
     let heading = heading_with(scope, root, name, &["input", "solution", "trace", "configuration"])?;
-    let keys = ["title", "source", "notes", "units", "mechanism", "configuration", "expected", "input", "solution", "trace"];
+    let keys =
+        ["title", "source", "notes", "units", "mechanism", "configuration", "expected", "input", "solution", "trace"];
     let table = scope.table(root, "the file", &keys)?;
     let node = scope.need(&table, "mechanism")?;
     let keys = ["kind", "space", "ground", "joints", "bodies"];
@@ -197,8 +198,7 @@ fn joint_named(scope: &Scope<'_>, linkage: &SphereLinkage, name: &str, line: usi
 fn joints(scope: &Scope<'_>, linkage: &mut SphereLinkage, node: &Node) -> Result<()> {
     if let Value::Text(word) = &node.value {
         if word != "shared points" {
-            let message =
-                "found a string as `joints` that is not \"shared points\", expected that or a list of joints";
+            let message = "found a string as `joints` that is not \"shared points\", expected that or a list of joints";
             return Err(scope.fail(node.line, message));
         }
         return shared(scope, linkage, node.line);
@@ -217,7 +217,10 @@ fn joints(scope: &Scope<'_>, linkage: &mut SphereLinkage, node: &Node) -> Result
                 [scope.text(a, "at")?.to_owned(), scope.text(b, "at")?.to_owned()]
             }
         };
-        let at = [point(scope, linkage, of[0], &points[0], item.line)?, point(scope, linkage, of[1], &points[1], item.line)?];
+        let at = [
+            point(scope, linkage, of[0], &points[0], item.line)?,
+            point(scope, linkage, of[1], &points[1], item.line)?,
+        ];
         let zero = match table.get("zero") {
             None => references(&at),
             Some(node) => {
@@ -308,7 +311,10 @@ fn push(scope: &Scope<'_>, linkage: &mut SphereLinkage, joint: SphereJoint) -> R
     let squares = joint.at.each_ref().map(|at| dot(at, at));
     if squares[0] != squares[1] {
         let [a, b] = squares.map(|square| square.to_f64().sqrt());
-        return refused(format!("found directions of lengths {a} and {b} at the joint {}, expected equal ones", joint.name));
+        return refused(format!(
+            "found directions of lengths {a} and {b} at the joint {}, expected equal ones",
+            joint.name
+        ));
     }
     if let Some(side) = (0..2).find(|side| is_parallel(&joint.at[*side], &joint.zero[*side])) {
         let body = &linkage.bodies[joint.of[side]].name;
@@ -474,9 +480,8 @@ fn claims(scope: &Scope<'_>, table: &Table<'_>, linkage: &SphereLinkage) -> Resu
         if let Some(list) = table.get("bodies") {
             for field in fields(&own, list, "bodies")? {
                 let index = linkage.bodies.iter().position(|body| body.name == field.key);
-                let index = index.ok_or_else(|| {
-                    own.fail(field.line, "found an unknown body, expected one of [mechanism.bodies]")
-                })?;
+                let index = index
+                    .ok_or_else(|| own.fail(field.line, "found an unknown body, expected one of [mechanism.bodies]"))?;
                 let place = own.table(&field.node, &field.key, &["quaternion"])?;
                 let mut q = [0.0; 4];
                 let node = own.need(&place, "quaternion")?;

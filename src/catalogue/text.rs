@@ -5,7 +5,7 @@ use super::calculus::{CalculusFile, calculus};
 use super::entry::Entry;
 use super::file_kind::FileKind;
 use super::framework::{FrameworkFile, framework};
-use super::linkage::{LinkageFile, lives_in, linkage};
+use super::linkage::{LinkageFile, linkage, lives_in};
 use super::motion::{MotionFile, motion};
 use super::node::Node;
 use super::options::Options;

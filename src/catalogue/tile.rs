@@ -46,13 +46,16 @@ pub(super) fn tile(scope: &Scope<'_>, table: &Table<'_>, mechanism: &Table<'_>) 
             for (side, node) in pair.iter_mut().zip(scope.exactly::<2>(item, key)?) {
                 let found = scope.count(node, key)?;
                 if !(1..=corners.len()).contains(&found) {
-                    return Err(scope.fail(node.line, format!("found the side {found}, expected 1 to {}", corners.len())));
+                    return Err(
+                        scope.fail(node.line, format!("found the side {found}, expected 1 to {}", corners.len()))
+                    );
                 }
                 *side = found - 1;
             }
             let [a, b] = pair;
             if used[a] || used[b] || (a == b && !may_be_same) {
-                let message = format!("found the sides {} and {} in `{key}`, expected every side in one pair", a + 1, b + 1);
+                let message =
+                    format!("found the sides {} and {} in `{key}`, expected every side in one pair", a + 1, b + 1);
                 return Err(scope.fail(item.line, message));
             }
             (used[a], used[b]) = (true, true);
@@ -62,7 +65,9 @@ pub(super) fn tile(scope: &Scope<'_>, table: &Table<'_>, mechanism: &Table<'_>) 
     };
     let (pairs, glides) = (read("pairs", true)?, read("glides", false)?);
     if let Some(side) = used.iter().position(|used| !used) {
-        return Err(scope.fail(node.line, format!("found no pair with the side {}, expected every side in one", side + 1)));
+        return Err(
+            scope.fail(node.line, format!("found no pair with the side {}, expected every side in one", side + 1))
+        );
     }
     Ok(Tile { corners, pairs, glides })
 }

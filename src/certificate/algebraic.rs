@@ -123,7 +123,9 @@ impl Points {
                 if is_turn(k) { vec![cos, sin] } else { vec![Far::about(&ball.centre[k], 0.0)] }
             })
             .collect();
-        let at = |polynomial: &Univariate<Rational>, t: &Far| -> Option<Far> { Some(polynomial.map(Far::from_rational)?.eval(t)) };
+        let at = |polynomial: &Univariate<Rational>, t: &Far| -> Option<Far> {
+            Some(polynomial.map(Far::from_rational)?.eval(t))
+        };
         let root = || {
             let weighed = here.iter().flatten().zip(&self.weights).map(|(x, w)| Some(x.mul(&Far::from_rational(w)?)));
             let start = weighed.collect::<Option<Vec<Far>>>()?.iter().fold(Far::zero(), |sum, x| sum.add(x)).midpoint();

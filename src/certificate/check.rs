@@ -91,7 +91,8 @@ pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> 
     let closed = closed(&entry, case)?;
     let own = if let Closed::Chain(closure) = &closed { closure.own } else { 6 };
     // A second item says which solutions of a longer loop are those of a shorter one, or that they are all roots of a polynomial.
-    let second = |kind: &str| record.proof.get(1).is_some_and(|item| item.get("kind").and_then(Value::as_str) == Some(kind));
+    let second =
+        |kind: &str| record.proof.get(1).is_some_and(|item| item.get("kind").and_then(Value::as_str) == Some(kind));
     let is_whole = match (&record.claim.polynomial, record.proof.len()) {
         (Some(_), 2) => own == 6 && second(polynomial::KIND),
         (None, 2) => own < 6 && second(algebraic::KIND),
@@ -149,7 +150,12 @@ pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> 
 
 /// Returns the balls of the solutions of a loop of fewer than six unknowns among those of the longer loop: theorem 11. An eliminant of
 /// the loop bounds their number, or one of the longer loop that of all balls.
-fn own_solutions(closure: &ChainClosure, balls: Vec<Ball>, kind: &str, item: Option<&Value>) -> Result<Vec<Ball>, Fault> {
+fn own_solutions(
+    closure: &ChainClosure,
+    balls: Vec<Ball>,
+    kind: &str,
+    item: Option<&Value>,
+) -> Result<Vec<Ball>, Fault> {
     let points = item.map(|item| exact_solutions(closure, item)).transpose()?;
     let is_own = |ball: &Ball| match &points {
         Some(points) if kind == OF_OWN => points.is_one_in(closure, ball),
@@ -159,7 +165,9 @@ fn own_solutions(closure: &ChainClosure, balls: Vec<Ball>, kind: &str, item: Opt
     let exact = points.map_or(0, |points| points.count());
     if own.len() != exact || kind == OF_OWN && modes != exact {
         let own = own.len();
-        return refused(format!("proof: points: they are {exact}, and {own} of the {modes} modes may be solutions of the loop"));
+        return refused(format!(
+            "proof: points: they are {exact}, and {own} of the {modes} modes may be solutions of the loop"
+        ));
     }
     Ok(own)
 }
@@ -186,7 +194,9 @@ fn real_list(closed: &Closed, item: &Value, claim: &Claim, balls: &[Ball]) -> Re
     let real = balls.iter().filter(|ball| ball.real).count();
     if real != bound || balls.len() != real {
         let modes = balls.len();
-        return refused(format!("proof: real-zeros: at most {bound} solutions, and {modes} modes are proved, {real} of them real"));
+        return refused(format!(
+            "proof: real-zeros: at most {bound} solutions, and {modes} modes are proved, {real} of them real"
+        ));
     }
     if claim.real != Some(real) || claim.complex.is_some() {
         return refused(format!("claim: {real} real solutions are proved, and nothing of complex ones"));

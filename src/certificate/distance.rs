@@ -38,9 +38,8 @@ fn is_too_far(closed: &Closed) -> bool {
                 Side::of_vector(&std::array::from_fn(|k| points[i][k].sub(&points[j][k])))
             };
             (0..6).any(|i| {
-                (0..i).any(|j| {
-                    is_open(&[legs[i], legs[j], between(&closure.base, i, j), between(&closure.plate, i, j)])
-                })
+                (0..i)
+                    .any(|j| is_open(&[legs[i], legs[j], between(&closure.base, i, j), between(&closure.plate, i, j)]))
             })
         }
     }

@@ -61,9 +61,15 @@ pub(super) fn solutions_by_eliminant(closure: &ChainClosure, choice: &Choice, ba
 }
 
 /// As [`solutions_by_eliminant`], of the loop without the rotations that were added to it.
-pub(super) fn own_solutions_by_eliminant(closure: &ChainClosure, choice: &Choice, balls: &[Ball]) -> Result<usize, Fault> {
+pub(super) fn own_solutions_by_eliminant(
+    closure: &ChainClosure,
+    choice: &Choice,
+    balls: &[Ball],
+) -> Result<usize, Fault> {
     let Some(own) = closure.own_links.as_ref().filter(|_| closure.spherical.is_empty()) else {
-        return refused("proof: own-eliminant: only loops of rotations and translations with rational constants have one");
+        return refused(
+            "proof: own-eliminant: only loops of rotations and translations with rational constants have one",
+        );
     };
     let links = std::array::from_fn(|k| own.get(k).cloned().unwrap_or_else(Motion::identity));
     let kinds = std::array::from_fn(|k| Some(closure.variables[k]).filter(|_| k < closure.own));

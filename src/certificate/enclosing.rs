@@ -77,7 +77,11 @@ impl<const BITS: u32> Enclosing for Ball<BITS> {
 
 /// Returns an upper bound of the distance of a number of the data from the middle of its enclosure.
 pub(super) fn distance_from_middle(known: &Enclosure) -> f64 {
-    if known.off() == i32::MIN { 0.0 } else { Float::with_val(BOUND, Float::i_exp(1, known.off())).to_f64_round(Round::Up) }
+    if known.off() == i32::MIN {
+        0.0
+    } else {
+        Float::with_val(BOUND, Float::i_exp(1, known.off())).to_f64_round(Round::Up)
+    }
 }
 
 /// Returns the approximate inverse of the midpoints of a matrix; proofs with it do not rest on its accuracy.

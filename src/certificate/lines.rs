@@ -59,7 +59,9 @@ fn moved<R: Ring>(motion: &Motion<R>, line: &Line<R>) -> Line<R> {
 /// Returns the images of a line under an unknown: the coefficients of 1, cosine and sine of an angle, or of 1, x and x^2 of a
 /// distance x. One that is held at 0 has the first alone.
 fn split<R: Ring>(line: &Line<R>, kind: Option<Variable>) -> [Line<R>; 3] {
-    let Some(kind) = kind else { return [line.clone(), [(); ENTRIES].map(|()| R::zero()), [(); ENTRIES].map(|()| R::zero())] };
+    let Some(kind) = kind else {
+        return [line.clone(), [(); ENTRIES].map(|()| R::zero()), [(); ENTRIES].map(|()| R::zero())];
+    };
     let with = |f: &dyn Fn(usize) -> R| -> Line<R> { std::array::from_fn(f) };
     if kind == Variable::Rotation {
         let at = |c: i32, s: i32| moved(&Motion::rotation_z(R::from_integer(c), R::from_integer(s)), line);

@@ -31,7 +31,6 @@ mod refine;
 mod strict;
 
 pub use bound::{proof_of, proof_of_own, proof_of_real_list};
-pub use reconstructed::proof_of_points;
 pub use chain::ChainClosure;
 pub use check::{Holds, check, check_all, closed};
 pub use data::{data_of, data_of_loop};
@@ -41,5 +40,6 @@ pub use isolation::{Closed, proved_modes};
 pub use mode::Ball;
 pub use moving::{proof_of_motion, proof_of_rest};
 pub use polynomial::proof_of_polynomial;
+pub use reconstructed::proof_of_points;
 pub use record::{FORMAT, VERSION};
 pub use refine::{Near, balls};

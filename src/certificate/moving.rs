@@ -103,7 +103,10 @@ fn does_not_move(entry: &Entry, item: &Value, balls: &[Ball]) -> Result<(), Faul
     };
     proved_modes(&Closed::Chain(Box::new(longer)), balls)?;
     if balls.is_empty() || least.is_some_and(|least| balls.len() != least) {
-        return refused(format!("modes: {} solutions of the longer loop are proved, more or others are asked for", balls.len()));
+        return refused(format!(
+            "modes: {} solutions of the longer loop are proved, more or others are asked for",
+            balls.len()
+        ));
     }
     Ok(())
 }
@@ -111,7 +114,9 @@ fn does_not_move(entry: &Entry, item: &Value, balls: &[Ball]) -> Result<(), Faul
 /// Checks theorem 6: the closure equations hold to the order that decides along the only first-order motion.
 fn follows_a_curve(entry: &Entry, item: &Value) -> Result<(), Fault> {
     let closure = longer_loop(entry)?;
-    let Some(links) = closure.own_links.as_ref().filter(|links| closure.spherical.is_empty() && !links.iter().any(is_long)) else {
+    let Some(links) =
+        closure.own_links.as_ref().filter(|links| closure.spherical.is_empty() && !links.iter().any(is_long))
+    else {
         return refused("proof: curve: only loops with rational constants and without spherical joints are covered");
     };
     let variables = &closure.variables[..closure.own];

@@ -47,7 +47,12 @@ fn integer(value: &Value) -> Result<Integer, Fault> {
 
 /// Returns the item for a polynomial in an unknown, of which the balls are all solutions; `None` if no choice of the eliminant gives it.
 #[must_use]
-pub fn proof_of_polynomial(closure: &ChainClosure, balls: &[Ball], unknown: usize, coefficients: &[Integer]) -> Option<Value> {
+pub fn proof_of_polynomial(
+    closure: &ChainClosure,
+    balls: &[Ball],
+    unknown: usize,
+    coefficients: &[Integer],
+) -> Option<Value> {
     let degree = coefficients.len().checked_sub(1)?;
     let claim = Claim { unknown, degree, coefficients: coefficients.to_vec() };
     let items = (0..3).map(|hidden| {
@@ -58,7 +63,12 @@ pub fn proof_of_polynomial(closure: &ChainClosure, balls: &[Ball], unknown: usiz
 }
 
 /// Checks that the roots of a polynomial are the values of an unknown at the solutions in the balls, which are all.
-pub(super) fn check_polynomial(closure: &ChainClosure, balls: &[Ball], claim: &Claim, item: &Value) -> Result<(), Fault> {
+pub(super) fn check_polynomial(
+    closure: &ChainClosure,
+    balls: &[Ball],
+    claim: &Claim,
+    item: &Value,
+) -> Result<(), Fault> {
     let no = |why: &str| refused(format!("proof: {KIND}: {why}"));
     let [_, aid] = fields(item, ["kind", "aid"], &[])?;
     let [first, hidden] = fields(aid, ["first", "hidden"], &[])?;

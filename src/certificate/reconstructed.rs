@@ -1,11 +1,11 @@
 //! Points with algebraic coordinates, found from solutions that are known to many digits. No proof rests on this: the items are checked.
 
 use super::algebraic::{BITS, Far, KIND};
-use super::mode::Ball;
-use super::refine::Near;
 use super::chain::ChainClosure;
 use super::enclosing::{Enclosing, near_inverse};
 use super::isolation::{Closure, Point};
+use super::mode::Ball;
+use super::refine::Near;
 use crate::algebra::ring::Ring;
 use crate::kinematics::joint::Variable;
 use num_complex::Complex;
@@ -36,7 +36,8 @@ pub fn proof_of_points(closure: &ChainClosure, near: &[Near], balls: &[Ball]) ->
 /// Returns cosine and sine or the distance of the own unknowns at a solution, which is improved to many digits.
 pub(super) fn coordinates(closure: &ChainClosure, near: &[Complex<f64>]) -> Option<Vec<Vec<Far>>> {
     let part = |x: f64| Some((Rational::from_f64(x)?, ()));
-    let mut x: Vec<(Rational, Rational)> = near.iter().map(|z| Some((part(z.re)?.0, part(z.im)?.0))).collect::<Option<_>>()?;
+    let mut x: Vec<(Rational, Rational)> =
+        near.iter().map(|z| Some((part(z.re)?.0, part(z.im)?.0))).collect::<Option<_>>()?;
     let angles = closure.angles();
     let mut turns = Vec::new();
     for step in 0..=STEPS {
@@ -66,7 +67,8 @@ pub(super) fn item(points: &[Vec<Vec<Far>>]) -> Option<Value> {
     let flat: Vec<Vec<Far>> = points.iter().map(|point| point.iter().flatten().cloned().collect()).collect();
     let count = flat[0].len();
     let units = (0..count).map(|k| (0..count).map(|i| i32::from(i == k)).collect::<Vec<i32>>());
-    let sums = [3, 5].into_iter().map(|factor| (0..count).map(|i| i32::try_from(i).unwrap_or(0) % factor + 1).collect());
+    let sums =
+        [3, 5].into_iter().map(|factor| (0..count).map(|i| i32::try_from(i).unwrap_or(0) % factor + 1).collect());
     let (weights, polynomial, values) = units.chain(sums).find_map(|weights| {
         let (polynomial, values) = named(&flat, &weights)?;
         Some((weights, polynomial, values))
@@ -133,9 +135,9 @@ pub(super) fn conjugate(points: &[Vec<Vec<Far>>], to: usize) -> Option<Vec<Vec<V
     let chosen = |subset: usize| (0..points.len()).filter(move |k| subset >> k & 1 == 1);
     let sums_are_rational = |subset: &usize| {
         let coordinates = points[to].iter().enumerate().flat_map(|(i, own)| (0..own.len()).map(move |j| (i, j)));
-        coordinates.into_iter().all(|(i, j)| {
-            rational(&chosen(*subset).fold(Far::zero(), |sum, k| sum.add(&points[k][i][j]))).is_some()
-        })
+        coordinates
+            .into_iter()
+            .all(|(i, j)| rational(&chosen(*subset).fold(Far::zero(), |sum, k| sum.add(&points[k][i][j]))).is_some())
     };
     let subset = subsets.into_iter().find(sums_are_rational)?;
     Some(chosen(subset).map(|k| points[k].clone()).collect())

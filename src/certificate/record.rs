@@ -66,7 +66,15 @@ fn claim(value: &Value) -> Result<Claim, Fault> {
     if is_mobility {
         let [verb, status, word, mobility] = fields(value, ["verb", "status", "proof", "mobility"], &[])?;
         let (verb, status, proof) = words(verb, status, word)?;
-        return Ok(Claim { verb, status, proof, complex: None, real: None, mobility: Some(count(mobility)?), polynomial: None });
+        return Ok(Claim {
+            verb,
+            status,
+            proof,
+            complex: None,
+            real: None,
+            mobility: Some(count(mobility)?),
+            polynomial: None,
+        });
     }
     let of_polynomial = ["unknown", "degree", "polynomial"];
     let is_derived = value.get("verb").and_then(Value::as_str) == Some("derive");

@@ -39,7 +39,9 @@ impl<'de> Visitor<'de> for Reader {
     }
 
     fn visit_f64<E: Error>(self, value: f64) -> Result<Strict, E> {
-        Number::from_f64(value).map(|number| Strict(Value::Number(number))).ok_or_else(|| E::custom("found no finite number"))
+        Number::from_f64(value)
+            .map(|number| Strict(Value::Number(number)))
+            .ok_or_else(|| E::custom("found no finite number"))
     }
 
     fn visit_str<E: Error>(self, value: &str) -> Result<Strict, E> {

@@ -1,8 +1,8 @@
 //! All methods for a 5R or 6R loop with symbols, and their results.
 
 use super::composed::Composed;
-use super::examples::{Example, examples};
 use super::curve_ansatz::{Curve, rational_curves};
+use super::examples::{Example, examples};
 use super::family::{Family, family};
 use super::formulas::{Formulas, formulas};
 use super::identity;
@@ -217,7 +217,18 @@ pub fn search(ansatz: &Ansatz, seed: u64) -> Result<Search> {
     let (composed, examples) =
         if is_special { (Vec::new(), Vec::new()) } else { (Composed::all(joints), examples(joints)) };
     let patterns = if is_special { patterns(ansatz, &mobile_slices) } else { Vec::new() };
-    Ok(Search { slices: looked_at, mobile_slices, composed, examples, curves, fitted, member, modular, proof, patterns })
+    Ok(Search {
+        slices: looked_at,
+        mobile_slices,
+        composed,
+        examples,
+        curves,
+        fitted,
+        member,
+        modular,
+        proof,
+        patterns,
+    })
 }
 
 impl Fitted {

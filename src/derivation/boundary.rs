@@ -92,9 +92,7 @@ pub(super) fn of_three(
     let two = Rational::from(2);
     // Each invariant without the part of the second variable, times the denominator.
     let height = |i: usize| reached.along(&rows[i]).add(&scaled(d, &o[i]));
-    let distance = || {
-        reached.square.add(&scaled(&reached.along(&own), &two)).add(&scaled(d, &dot(o, o)))
-    };
+    let distance = || reached.square.add(&scaled(&reached.along(&own), &two)).add(&scaled(d, &dot(o, o)));
     // Of a rotation the part along its axis only, with the square, belongs to what the second variable leaves alone.
     let axis: Vector<Rational> = [Rational::new(), Rational::new(), Rational::from(1)];
     let along_axis = reached.along(&axis);
@@ -155,7 +153,8 @@ pub(super) fn of_three(
 }
 
 fn none() -> Error {
-    let message = "found a point that moves on a surface or reaches every position, expected one whose work space has a boundary";
+    let message =
+        "found a point that moves on a surface or reaches every position, expected one whose work space has a boundary";
     Error::Invalid(message.to_owned())
 }
 
@@ -225,7 +224,9 @@ fn of_slide(
 /// A combination of the invariants is free of the second variable: the boundary is where it is extreme in the third variable, and
 /// where the other invariant is extreme in the second one.
 fn of_free(free: &Space, extreme: &Space, steps: &mut Vec<&'static str>) -> Option<Space> {
-    steps.push("a combination of the two invariants is free of the second variable: the boundary is where it is extreme");
+    steps.push(
+        "a combination of the two invariants is free of the second variable: the boundary is where it is extreme",
+    );
     steps.push("and where the other invariant is extreme in the second variable");
     let (free, extreme) = (reduced(free), reduced(extreme));
     if free.degree(THIRD) == 0 {
@@ -314,9 +315,9 @@ pub(super) fn of_cylinders(
 
 #[cfg(test)]
 mod tests {
-    use crate::derivation::surface;
     use crate::catalogue::entry::Design;
     use crate::catalogue::{Any, Chains, Options, load_any};
+    use crate::derivation::surface;
     use crate::kinematics::chain::Chain;
     use crate::kinematics::forward::Forward;
     use crate::kinematics::motion::{cross, dot};
@@ -347,7 +348,8 @@ mod tests {
             let largest = found.polynomial.terms().map(|(_, c)| c.to_integer().to_f64().abs()).fold(0.0, f64::max);
             let share = |p: [f64; 3]| {
                 let terms = found.polynomial.terms().map(|(exponents, c)| {
-                    let powers = exponents.iter().zip(p).map(|(e, x)| x.powi(i32::try_from(*e).unwrap())).product::<f64>();
+                    let powers =
+                        exponents.iter().zip(p).map(|(e, x)| x.powi(i32::try_from(*e).unwrap())).product::<f64>();
                     c.to_integer().to_f64() * powers
                 });
                 let (sum, size) = terms.fold((0.0, 0.0), |(sum, size), term: f64| (sum + term, size + term.abs()));

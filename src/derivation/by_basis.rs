@@ -69,7 +69,8 @@ pub fn relation_by_bases(
         let ring = ring(&equations)?;
         Some((ring.distinct(), ring.separating_form(equations.0)?, ring.dimension()))
     });
-    let (_, form, degree) = seen.max_by_key(|(distinct, ..)| *distinct).filter(|(_, _, degree)| *degree > 0).ok_or_else(none)?;
+    let (_, form, degree) =
+        seen.max_by_key(|(distinct, ..)| *distinct).filter(|(_, _, degree)| *degree > 0).ok_or_else(none)?;
     let source = Forms { at, form, degree };
     let family = Family::new(&source, watch, Values::Small, vec![name.to_owned()], degree + 1);
     family.relation()

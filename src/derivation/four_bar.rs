@@ -47,9 +47,8 @@ fn choice_of(form: &LinkForm<Mod, 4, 2>, serves: impl Fn(usize, Hidden) -> bool)
 /// Returns the two equations and their polynomial in a certain unknown; `None` if no link has its angle at one end and leaves one.
 pub(super) fn eliminate_keeping(exact: &Exact, unknown: usize) -> Option<Eliminated> {
     let modular: LinkForm<Mod, 4, 2> = LinkForm::of(exact.modular.as_ref()?)?;
-    let keeps = |base: usize, hidden: Hidden| {
-        modular.rotations[(base + usize::from(hidden == Hidden::Second)) % 4] == unknown
-    };
+    let keeps =
+        |base: usize, hidden: Hidden| modular.rotations[(base + usize::from(hidden == Hidden::Second)) % 4] == unknown;
     eliminate_by(exact, Some(choice_of(&modular, keeps)?))
 }
 

@@ -73,13 +73,11 @@ pub(crate) fn derivation(
     let at_pi = if is_angle { full - at.degree().unwrap_or(full) } else { 0 };
     let polynomial = match at.degree() {
         None => None,
-        Some(_) => {
-            Some(ClosurePolynomial::of(variable, Eliminant { coefficients: at, at_pi, removed: Vec::new() })?)
-        }
+        Some(_) => Some(ClosurePolynomial::of(variable, Eliminant { coefficients: at, at_pi, removed: Vec::new() })?),
     };
-    let without = polynomial
-        .is_none()
-        .then(|| "the closure polynomial vanishes at this input: the loop moves while its input stands still".to_owned());
+    let without = polynomial.is_none().then(|| {
+        "the closure polynomial vanishes at this input: the loop moves while its input stands still".to_owned()
+    });
     let warnings = vec![
         "isolated configurations, at which the loop closes at this input alone, need not be roots: sweep and solve list them".to_owned(),
     ];
@@ -99,7 +97,8 @@ pub(crate) fn derivation(
 
 /// Returns the polynomial in the output at the input of a case.
 fn at_input(polynomial: &Polynomial<Int>, value: &InputValue) -> Univariate<Integer> {
-    let rows: Vec<Univariate<Integer>> = polynomial.coefficients_in(1).iter().map(|row| over_integers(row, 0)).collect();
+    let rows: Vec<Univariate<Integer>> =
+        polynomial.coefficients_in(1).iter().map(|row| over_integers(row, 0)).collect();
     let number = match value {
         InputValue::Angle(angle) => match angle.half_tangent() {
             HalfTangent::Finite(t) => Some(t.clone()),

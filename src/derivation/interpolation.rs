@@ -161,7 +161,8 @@ impl<'s, S: Source> Family<'s, S> {
     /// [`Error::Unsupported`] where there are more than 100,000 terms, or the values do not determine them.
     pub fn interpolated(&self) -> Result<Interpolated> {
         let degree = |k: usize| {
-            let message = format!("the degree in {} is above {MOST_DEGREE}, or the unknown changes with it", self.names[k]);
+            let message =
+                format!("the degree in {} is above {MOST_DEGREE}, or the unknown changes with it", self.names[k]);
             self.degree(k).ok_or_else(|| self.stopped(&message))
         };
         let degrees: Vec<usize> = (0..self.names.len()).map(degree).collect::<Result<_>>()?;
@@ -370,8 +371,7 @@ impl<'s, S: Source> Family<'s, S> {
             let put: Vec<(usize, Polynomial<Rational>)> =
                 values.iter().enumerate().map(|(k, value)| (first + k, Polynomial::constant(value.clone()))).collect();
             if primitive(&found.substitute_all(&put)) != primitive(&polynomial(&expected)) {
-                let message =
-                    "the interpolated polynomial differs from the closure polynomial at other values: a fault of this program";
+                let message = "the interpolated polynomial differs from the closure polynomial at other values: a fault of this program";
                 return Err(Error::Invalid(message.to_owned()));
             }
             compared += 1;

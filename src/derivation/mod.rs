@@ -30,20 +30,21 @@ pub use by_basis::{Equations, relation_by_bases};
 pub use equation::Equation;
 pub use interpolation::Watch;
 pub use linkage::{
-    Coordinate, Curve, CurveSymbolic, GroupPolynomial, InputOutput, LinkageDerivation, LinkageSymbolic, Symbol, derive_linkage, derive_linkage_with_symbols,
-    in_cosines, relation_by_values, trace, trace_mass, trace_with_symbols,
+    Coordinate, Curve, CurveSymbolic, GroupPolynomial, InputOutput, LinkageDerivation, LinkageSymbolic, Symbol,
+    derive_linkage, derive_linkage_with_symbols, in_cosines, relation_by_values, trace, trace_mass, trace_with_symbols,
 };
 pub use polynomial::{ClosurePolynomial, Removed, Root};
 pub use pose::RootPose;
 pub use sphere::{
-    SpecialPoint, SphereCurve, SphereEnd, SphereSymbol, SphereSymbolic, Transfer, sphere_sides, sphere_trace, sphere_with_symbols, transfer,
+    SpecialPoint, SphereCurve, SphereEnd, SphereSymbol, SphereSymbolic, Transfer, sphere_sides, sphere_trace,
+    sphere_with_symbols, transfer,
 };
 pub use substitution::Substitution;
+pub use surface::{Surface, surface};
+pub use symbolic::{Displayed, Quotient, Symbolic, SymbolicPolynomial, derive_symbolic, derive_with_symbols};
 pub(crate) use symbolic::{Place, Setting, derive_interpolated};
 pub(crate) use symbols::variable_name;
 pub use ways::{ByWay, Matrix, Way, derive_by};
-pub use surface::{Surface, surface};
-pub use symbolic::{Displayed, Quotient, Symbolic, SymbolicPolynomial, derive_symbolic, derive_with_symbols};
 
 use crate::algebra::int::Int;
 use crate::algebra::number::Number;

@@ -209,7 +209,10 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
 fn not_in_rings(platform: &Platform<Rational>, squares: &[Rational; 6], dimension: usize) -> String {
     match pose_basis(platform, squares) {
         Some(PoseBasis::AtMost(points)) => {
-            format!("{} poses with multiplicity at most, but no coordinate in which they have a polynomial", points.count)
+            format!(
+                "{} poses with multiplicity at most, but no coordinate in which they have a polynomial",
+                points.count
+            )
         }
         Some(PoseBasis::InfiniteModuloPrime) => format!(
             "the poses are not isolated modulo a prime drawn at random: a self-motion of dimension {dimension}, real or complex"

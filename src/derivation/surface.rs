@@ -53,8 +53,8 @@ struct Function {
 /// For chains of more than three variables other than CC, for data that are not rational, and if the point moves on a curve only.
 pub fn surface(chain: &Chain, point: &Vector<Rational>) -> Result<Surface> {
     let unknown = chain.unknowns_and_constants::<Rational>();
-    let (variables, constants) =
-        unknown.ok_or_else(|| Error::Unsupported("the surface of a chain with data that are not rational".to_owned()))?;
+    let (variables, constants) = unknown
+        .ok_or_else(|| Error::Unsupported("the surface of a chain with data that are not rational".to_owned()))?;
     if let (3, [base, one, two, tool]) = (variables.len(), constants.as_slice()) {
         return boundary::of_three(&variables, [base, one, two], &tool.apply(point));
     }
@@ -85,11 +85,8 @@ pub fn surface(chain: &Chain, point: &Vector<Rational>) -> Result<Surface> {
             [link.apply(&p), link.rotate(&[zero(), zero(), Rational::from(1)]), [zero(), zero(), zero()]]
         }
     };
-    let along = |k: usize| Function {
-        constant: parts[0][k].clone(),
-        first: parts[1][k].clone(),
-        second: parts[2][k].clone(),
-    };
+    let along =
+        |k: usize| Function { constant: parts[0][k].clone(), first: parts[1][k].clone(), second: parts[2][k].clone() };
     // For a rotation the cosine and the sine belong to perpendicular vectors of equal length, whose squares add up to one.
     let square = || {
         let [a, b, c] = &parts;

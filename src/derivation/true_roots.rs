@@ -52,7 +52,8 @@ pub(super) fn count(exact: &Exact) -> Option<usize> {
 /// Divides out of the eliminant of an unknown the factors that belong to no solution. In general there are `per_root`
 /// solutions at each root.
 pub(super) fn settled(exact: &Exact, unknown: usize, eliminant: Eliminant, per_root: usize) -> Settled {
-    let reach = exact.spherical.zip(exact.modular.as_ref()).map(|(spherical, modular)| point_reach::count(modular, spherical));
+    let reach =
+        exact.spherical.zip(exact.modular.as_ref()).map(|(spherical, modular)| point_reach::count(modular, spherical));
     let Some(ring) = SolutionRing::of(exact, unknown) else {
         // The three angles of a spherical joint may form a family while its centre does not.
         let finite = exact.modular.is_none() || reach.flatten().is_some();

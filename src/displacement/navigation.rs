@@ -64,7 +64,10 @@ impl State {
         // exp(W t) and its first and second integral over the interval are 1, W/|w|, (W/|w|)^2 times these, and powers of T.
         let turned = [one.clone(), sin.clone(), one.sub(&cos)];
         let (first, second) = if is_still {
-            ([one.clone(), Enclosure::zero(), Enclosure::zero()], [Enclosure::of(&half), Enclosure::zero(), Enclosure::zero()])
+            (
+                [one.clone(), Enclosure::zero(), Enclosure::zero()],
+                [Enclosure::of(&half), Enclosure::zero(), Enclosure::zero()],
+            )
         } else {
             let inverse = one.over(&theta)?;
             let inverse_square = inverse.mul(&inverse);

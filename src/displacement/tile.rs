@@ -139,7 +139,11 @@ impl Tile {
                 (0, Ordering::Equal, Ordering::Greater) => Some(4),
                 _ => None,
             };
-            let size = if product.re.cmp_abs(&product.im).is_lt() { product.im.clone().abs() } else { product.re.clone().abs() };
+            let size = if product.re.cmp_abs(&product.im).is_lt() {
+                product.im.clone().abs()
+            } else {
+                product.re.clone().abs()
+            };
             let part = |x: &Rational| nearest_f64(&Rational::from(x / &size));
             let rest = part(&product.im).atan2(part(&product.re)).rem_euclid(TAU);
             let angle = f64::from(turns) * TAU + rest;

@@ -331,7 +331,8 @@ fn holds(prime: &Prime, way: &Way, known: &Known) -> Option<bool> {
         multiple.push((factor.iter().map(Residue::reduced).collect::<Option<Vec<_>>>()?, *order));
     }
     let divides = |(determinant, x): (&Polynomial, &Residue)| {
-        let mut divisor = (0..known.circle).fold(Univariate::one(), |product: Polynomial, _| product.mul(&Polynomial::circle()));
+        let mut divisor =
+            (0..known.circle).fold(Univariate::one(), |product: Polynomial, _| product.mul(&Polynomial::circle()));
         for (factor, order) in &multiple {
             let own = Univariate::new(factor.iter().map(|c| c.eval(x)).collect());
             divisor = (0..*order).fold(divisor, |product, _| product.mul(&own));

@@ -3,8 +3,8 @@
 use super::forward::Forward;
 use super::model::Model;
 use super::pose::{Matrix, matrix, placement};
-use crate::algebra::number::{Angle, Number, Reading};
 use super::workspace::Workspace;
+use crate::algebra::number::{Angle, Number, Reading};
 use crate::assembly::Roots;
 use crate::catalogue::entry::{Case, Design, Kind};
 use crate::error::{Error, Result};

@@ -89,11 +89,8 @@ impl Linkage {
                 return Err(Error::Invalid(format!("found {value} as the input {name}, expected a finite number")));
             }
             let slides = joints.iter().any(|(own, kind)| own == name && *kind == Variable::Translation);
-            let value = if slides {
-                InputValue::Distance(Number::from_f64(*value))
-            } else {
-                InputValue::Angle(angle(*value))
-            };
+            let value =
+                if slides { InputValue::Distance(Number::from_f64(*value)) } else { InputValue::Angle(angle(*value)) };
             Ok((name.clone(), value))
         };
         given.iter().map(one).collect()
@@ -156,8 +153,8 @@ impl Linkage {
             }
             Kind::Sphere(file) => {
                 let traced = traced.map(|name| file.point(name)).transpose()?;
-                let traced =
-                    traced.map(|(body, name, place)| (body, format!("{}.{name}", file.linkage.bodies[body].name), place));
+                let traced = traced
+                    .map(|(body, name, place)| (body, format!("{}.{name}", file.linkage.bodies[body].name), place));
                 let case = &file.cases[0];
                 let found = sweep_sphere(&file.linkage, (&case.given, file.exact && case.exact), number, range)?;
                 sphere_sweep::json(file, traced.as_ref(), &found)

@@ -143,7 +143,9 @@ impl Model {
     /// # Errors
     /// As [`Mechanism::solve`], and [`Error::Unsupported`] with the reason for an answer of which there is no certificate.
     pub fn certificate(&self, case: &Case) -> Result<Value> {
-        let of = |complex| Ok::<_, Error>(crate::report::certificate::certificate(&self.entry, 1, case, &self.solve(case, complex)?));
+        let of = |complex| {
+            Ok::<_, Error>(crate::report::certificate::certificate(&self.entry, 1, case, &self.solve(case, complex)?))
+        };
         let found = match of(true)? {
             // Real solutions may be proved to be all where complex ones are not.
             Err(reason) => of(false)?.map_err(|_| reason),
@@ -176,7 +178,9 @@ pub fn mobility(name: &str) -> Result<Value> {
         Any::Framework(file) => Ok(framework::json(&file, &file.mobility(STEPS)?)),
         other => match linkage_mobility::ask(&other, name) {
             Some(asked) => Ok(linkage_mobility::json(&asked?)),
-            None => Err(Error::Invalid(other.kind().unexpected("a loop, an arm, a platform, a linkage or a framework"))),
+            None => {
+                Err(Error::Invalid(other.kind().unexpected("a loop, an arm, a platform, a linkage or a framework")))
+            }
         },
     }
 }

@@ -43,7 +43,16 @@ fn gear(crossed: &Crossed, k: usize) -> Option<Gear> {
     let way = tip.mul(&tip).sub(&base.mul(&base)).sqrt()?.sub(&roll).over(&base_cosine)?;
     let curvature = roll.over(&base_cosine)?;
     let generator = (sin_n.mul(&sin), cos.clone());
-    Some(Gear { helix: (cos, sin), reference, base, tip, base_helix: (base_cosine, base_sine), way, curvature, generator })
+    Some(Gear {
+        helix: (cos, sin),
+        reference,
+        base,
+        tip,
+        base_helix: (base_cosine, base_sine),
+        way,
+        curvature,
+        generator,
+    })
 }
 
 /// The sine and the cosine of the sum of two angles, each given by sine and cosine up to a positive factor.
@@ -83,5 +92,7 @@ fn measures(crossed: &Crossed) -> Option<Answer> {
     let sliding = slide(&gears[0])?.add(&slide(&gears[1])?);
     let rolling = Enclosure::of(&crossed.module).mul(&whole(crossed.teeth[0])).scaled(&Rational::from((1, 2)));
     named.enclosed("sliding", &sliding.mul(&rolling));
-    Some(named.answer("one line touches both base cylinders and is the normal of both flanks in every point of contact"))
+    Some(
+        named.answer("one line touches both base cylinders and is the normal of both flanks in every point of contact"),
+    )
 }

@@ -36,7 +36,9 @@ pub fn curve(radius: &Rational, roll: &Angle) -> Answer {
     named.enclosures("centre", &[cos.mul(&r), sin.mul(&r)]);
     named.enclosed("curvature_radius", &t.mul(&r));
     named.enclosed("arc", &t.mul(&t).mul(&r).scaled(&Rational::from((1, 2))));
-    named.answer("the centre of curvature of an involute is the point of the circle from which the tangent has rolled off")
+    named.answer(
+        "the centre of curvature of an involute is the point of the circle from which the tangent has rolled off",
+    )
 }
 
 /// The angle in radians, whole turns included.
@@ -70,7 +72,10 @@ fn inverse(value: &Enclosure) -> Option<Enclosure> {
     let width = Float::with_val(192, 1) >> WIDTH.unsigned_abs();
     let below = involute(&Enclosure::of_float(&Float::with_val(192, &found - &width)))?.sub(value);
     let above = involute(&Enclosure::of_float(&Float::with_val(192, &found + &width)))?.sub(value);
-    let is_between = !below.holds_zero() && below.middle().is_sign_negative() && !above.holds_zero() && !above.middle().is_sign_negative();
+    let is_between = !below.holds_zero()
+        && below.middle().is_sign_negative()
+        && !above.holds_zero()
+        && !above.middle().is_sign_negative();
     is_between.then(|| Enclosure::of_float(&found).widened(WIDTH))
 }
 
@@ -121,15 +126,29 @@ fn measures(pair: &Pair) -> Option<Measures> {
     let part = |k: usize| tips[k].mul(&tips[k]).sub(&base[k].mul(&base[k])).sqrt();
     let pitch = Enclosure::pi().mul(&module).mul(&cos);
     let across = distance.mul(&working.1);
-    let length = if pair.internal { part(0)?.sub(&part(1)?).add(&across) } else { part(0)?.add(&part(1)?).sub(&across) };
+    let length =
+        if pair.internal { part(0)?.sub(&part(1)?).add(&across) } else { part(0)?.add(&part(1)?).sub(&across) };
     let contact = length.over(&pitch)?;
-    Some(Measures { reference: (cos, sin), working_angle, working, module, radii, base, tips, distance, pitch, contact })
+    Some(Measures {
+        reference: (cos, sin),
+        working_angle,
+        working,
+        module,
+        radii,
+        base,
+        tips,
+        distance,
+        pitch,
+        contact,
+    })
 }
 
 /// The measures of a pair of involute gears.
 pub fn pair(pair: &Pair) -> Answer {
     let Some(found) = measures(pair) else {
-        return Answer::none("no working pressure angle belongs to these profile shifts, or a tip lies inside of its base circle");
+        return Answer::none(
+            "no working pressure angle belongs to these profile shifts, or a tip lies inside of its base circle",
+        );
     };
     let mut named = Named::default();
     named.enclosed("transverse_module", &found.module);

@@ -10,7 +10,8 @@ use rug::Rational;
 pub fn answer(train: &Train) -> Answer {
     let count = train.shafts.len();
     // Each row: factors of the rates, and what they add up to.
-    let mut rows: Vec<Vec<Rational>> = train.relations.iter().map(|relation| [relation.clone(), vec![Rational::new()]].concat()).collect();
+    let mut rows: Vec<Vec<Rational>> =
+        train.relations.iter().map(|relation| [relation.clone(), vec![Rational::new()]].concat()).collect();
     for (shaft, rate) in &train.given {
         let mut row = vec![Rational::new(); count + 1];
         row[*shaft] = Rational::from(1);

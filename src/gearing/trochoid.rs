@@ -148,12 +148,17 @@ mod tests {
 
     #[test]
     fn the_second_generation_has_the_same_curve_and_its_own_second_is_the_first() {
-        for (radii, internal) in [([3, 1, 1], true), ([2, 1, 3], false), ([5, 2, 1], true), ([1, 1, 1], false), ([1, 2, 3], true)] {
+        for (radii, internal) in
+            [([3, 1, 1], true), ([2, 1, 3], false), ([5, 2, 1], true), ([1, 1, 1], false), ([1, 2, 3], true)]
+        {
             let own = rolling(radii, internal);
             let arms = Arms::of(&own);
             let other = arms.exchanged();
             let back = Arms::of(&other).exchanged();
-            assert_eq!((&back.fixed, &back.rolling, &back.arm, back.internal), (&own.fixed, &own.rolling, &own.arm, own.internal));
+            assert_eq!(
+                (&back.fixed, &back.rolling, &back.arm, back.internal),
+                (&own.fixed, &own.rolling, &own.arm, own.internal)
+            );
             let polynomial = |arms: &Arms| {
                 let [n, m] = [arms.ratio.denom(), arms.ratio.numer()].map(|n| n.to_i64().unwrap());
                 real(&arms.isotropic([n, m]))
@@ -176,7 +181,9 @@ mod tests {
                 let (s, r) = (n as f64 * t, m as f64 * t);
                 let (x, y) = (a * s.cos() + b * r.cos(), a * s.sin() + b * r.sin());
                 let (sum, size) = polynomial.terms().fold((0.0, 0.0), |(sum, size): (f64, f64), (e, c)| {
-                    let term = c.to_integer().to_f64() * x.powi(e[0].cast_signed()) * y.powi(e.get(1).copied().unwrap_or(0).cast_signed());
+                    let term = c.to_integer().to_f64()
+                        * x.powi(e[0].cast_signed())
+                        * y.powi(e.get(1).copied().unwrap_or(0).cast_signed());
                     (sum + term, size + term.abs())
                 });
                 assert!(sum.abs() <= 1e-11 * size, "{radii:?}: {sum} of {size}");

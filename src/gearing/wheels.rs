@@ -15,7 +15,8 @@ fn rates(wheel: &Wheel) -> [Rational; 3] {
     let [c, d] = &wheel.drive;
     let size = Rational::from(c.square_ref()) + Rational::from(d.square_ref());
     // The drive is a direction: its length is a square root, and one factor of it is that of the rate.
-    let length = looproot_calculus::unit::Root::sqrt(&size).unwrap_or_else(|| Rational::from_f64(nearest_f64(&size).sqrt()).unwrap_or_else(|| Rational::from(1)));
+    let length = looproot_calculus::unit::Root::sqrt(&size)
+        .unwrap_or_else(|| Rational::from_f64(nearest_f64(&size).sqrt()).unwrap_or_else(|| Rational::from(1)));
     let along = (Rational::from(a * c) + Rational::from(b * d)) / length * &wheel.radius;
     let turning = Rational::from(b * x) - Rational::from(a * y);
     [Rational::from(a / &along), Rational::from(b / &along), turning / along]

@@ -119,7 +119,8 @@ pub fn solve_asked(linkage: &Linkage, given: &[Given], accuracy: Accuracy, asked
         b.real.cmp(&a.real).then_with(angles)
     });
     let families = found.curves.iter().filter(|family| is_one(&family.state));
-    let families = families.map(|family| LinkageFamily::at(linkage, &family.state, family.dimension, family.joints.clone()));
+    let families =
+        families.map(|family| LinkageFamily::at(linkage, &family.state, family.dimension, family.joints.clone()));
     let families: Vec<LinkageFamily> = families.collect();
     let verdict = verdict(&found, &modes, &families, exact);
     let groups = found.groups.iter().map(|group| LinkageGroup {
@@ -177,7 +178,8 @@ fn motion(family: &Family, found: &Assemblies) -> (bool, String) {
             Some(doubt) => format!("the isolated ones may not be all: {doubt}"),
             None => "the isolated ones listed beside it are all that there are".to_owned(),
         };
-        let what = if family.kind == FamilyKind::Dyad { "a dyad whose ends coincide" } else { "a body whose joints coincide" };
+        let what =
+            if family.kind == FamilyKind::Dyad { "a dyad whose ends coincide" } else { "a body whose joints coincide" };
         return (found.doubt.is_none(), format!("{what} turns freely; {list}"));
     }
     let real = if family.is_proved {
@@ -220,7 +222,8 @@ fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily]
     let first = whole.iter().find(|family| family.kind == FamilyKind::Other).or(whole.first());
     let (status, proof, code, reason) = if let Some(first) = first {
         let (is_first, reason) = motion(first, found);
-        let is_proved = is_first && whole.iter().all(|family| family.kind != FamilyKind::Other || motion(family, found).0);
+        let is_proved =
+            is_first && whole.iter().all(|family| family.kind != FamilyKind::Other || motion(family, found).0);
         // Along the motion of another group there may be more freedoms.
         let is_all = moving.iter().all(|family| is_one(&family.state));
         let reason = if is_all { reason } else { format!("{reason}; {UNFOLLOWED}") };
@@ -235,8 +238,13 @@ fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily]
         (status, rounded, code, reason)
     } else if found.only_real {
         let status = if real == 0 { Status::Unreachable } else { Status::Complete };
-        let list = if real == 0 { "no assembly is real".to_owned() } else { format!("{real} real assemblies of groups of {counts}") };
-        let reason = format!("{list}: every box of angles is proved to hold none but these; complex ones were not looked for");
+        let list = if real == 0 {
+            "no assembly is real".to_owned()
+        } else {
+            format!("{real} real assemblies of groups of {counts}")
+        };
+        let reason =
+            format!("{list}: every box of angles is proved to hold none but these; complex ones were not looked for");
         (status, rounded, code, reason)
     } else if real == 0 {
         let far = match found.gap {
@@ -257,7 +265,12 @@ fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily]
         complex,
         real,
         at_infinity: 0,
-        self_motion: families.iter().filter(|family| family.sample.real).map(|family| family.dimension).max().unwrap_or(0),
+        self_motion: families
+            .iter()
+            .filter(|family| family.sample.real)
+            .map(|family| family.dimension)
+            .max()
+            .unwrap_or(0),
         certified: modes.len(),
         reason,
     }

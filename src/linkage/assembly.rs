@@ -207,9 +207,7 @@ pub fn groups_of(linkage: &Linkage, given: &[Given]) -> Result<Groups> {
 fn gears_of(linkage: &Linkage) -> Result<Vec<(usize, [usize; 3])>> {
     let joints = linkage.joints.iter().enumerate();
     let gears = joints.filter_map(|(index, joint)| match &joint.pair {
-        Pair::Gear { carrier, ratio, .. } => {
-            Some(teeth(ratio).map(|_| (index, [*carrier, joint.of[0], joint.of[1]])))
-        }
+        Pair::Gear { carrier, ratio, .. } => Some(teeth(ratio).map(|_| (index, [*carrier, joint.of[0], joint.of[1]]))),
         _ => None,
     });
     gears.collect()
@@ -296,13 +294,7 @@ fn started(linkage: &Linkage, given: &[Given], place: Placing) -> Result<State> 
     Ok(start)
 }
 
-fn attempt(
-    linkage: &Linkage,
-    start: &State,
-    groups: &Groups,
-    highest: usize,
-    asked: Asked<'_>,
-) -> Result<Assemblies> {
+fn attempt(linkage: &Linkage, start: &State, groups: &Groups, highest: usize, asked: Asked<'_>) -> Result<Assemblies> {
     let mut start = start.clone();
     start.top.highest = highest;
     let mut found = Assemblies {
@@ -357,13 +349,7 @@ struct Branch<'a> {
 }
 
 /// Solves a group in one branch.
-fn branch(
-    at: Branch<'_>,
-    solution: &mut Solution,
-    next: &mut Vec<State>,
-    found: &mut Assemblies,
-    asked: Asked<'_>,
-) {
+fn branch(at: Branch<'_>, solution: &mut Solution, next: &mut Vec<State>, found: &mut Assemblies, asked: Asked<'_>) {
     let Branch { closure, group, state, .. } = at;
     let equations = &closure.equations;
     if equations.loops() == 1 {
@@ -475,13 +461,7 @@ fn has_pencil(equations: &Equations<Number>, complex: bool) -> bool {
 }
 
 /// Adds the real assemblies that a group has in one branch, where no others are looked for.
-fn by_boxes(
-    at: Branch<'_>,
-    solution: &mut Solution,
-    next: &mut Vec<State>,
-    found: &mut Assemblies,
-    asked: Asked<'_>,
-) {
+fn by_boxes(at: Branch<'_>, solution: &mut Solution, next: &mut Vec<State>, found: &mut Assemblies, asked: Asked<'_>) {
     let Branch { closure, group, state, .. } = at;
     // An assembly of the whole that is real is so in its parts.
     if !state.real {
@@ -516,13 +496,7 @@ fn add_boxes(
 }
 
 /// Adds the assemblies that a group has in one branch.
-fn add(
-    solved: Solved,
-    at: Branch<'_>,
-    solution: &mut Solution,
-    next: &mut Vec<State>,
-    found: &mut Assemblies,
-) {
+fn add(solved: Solved, at: Branch<'_>, solution: &mut Solution, next: &mut Vec<State>, found: &mut Assemblies) {
     let Branch { closure, group, state, .. } = at;
     match solved {
         Solved::Undecided(reason) => {

@@ -19,7 +19,9 @@ pub const COUPLER: usize = 2;
 /// [`Error::Invalid`] for linkages that are no such four-bar, bodies that are no coupler, and points that stand in a joint of the
 /// coupler, whose curve is a circle.
 pub fn cognates(linkage: &Linkage, body: usize, point: &Gaussian) -> Result<[Linkage; 2]> {
-    let wrong = |what: &str| Error::Invalid(format!("found {what}, expected a point of the coupler of a four-bar of four revolute joints"));
+    let wrong = |what: &str| {
+        Error::Invalid(format!("found {what}, expected a point of the coupler of a four-bar of four revolute joints"))
+    };
     let is_revolute = linkage.joints.iter().all(|joint| joint.pair == Pair::Revolute);
     if linkage.bodies.len() != 4 || linkage.joints.len() != 4 || !is_revolute {
         return Err(wrong("another linkage"));
@@ -32,7 +34,8 @@ pub fn cognates(linkage: &Linkage, body: usize, point: &Gaussian) -> Result<[Lin
         .filter_map(|pivot| {
             let ground = side(pivot, linkage.ground)?;
             let arm = pivot.of[1 - ground];
-            let joint = linkage.joints.iter().find(|joint| side(joint, arm).is_some() && side(joint, body).is_some())?;
+            let joint =
+                linkage.joints.iter().find(|joint| side(joint, arm).is_some() && side(joint, body).is_some())?;
             let (near, far) = (side(joint, arm)?, side(joint, body)?);
             let link = joint.at[near].sub(&pivot.at[1 - ground]);
             (arm != body).then(|| [pivot.at[ground].clone(), link, joint.at[far].clone()])

@@ -78,8 +78,13 @@ pub fn four_bars(file: &SynthesisFile, answer: &Answer) -> Vec<FourBar> {
     if file.space != Space::Plane {
         return Vec::new();
     }
-    let real: Vec<(usize, &Dyad)> =
-        answer.modes.iter().enumerate().filter(|(_, mode)| mode.is_real && mode.is_certified()).map(|(k, mode)| (k, &mode.dyad)).collect();
+    let real: Vec<(usize, &Dyad)> = answer
+        .modes
+        .iter()
+        .enumerate()
+        .filter(|(_, mode)| mode.is_real && mode.is_certified())
+        .map(|(k, mode)| (k, &mode.dyad))
+        .collect();
     let mut list = Vec::new();
     for (crank, first) in &real {
         for (rocker, second) in real.iter().filter(|(rocker, _)| rocker != crank) {
@@ -268,13 +273,19 @@ mod tests {
     #[test]
     fn a_circuit_is_walked_in_its_order() {
         // Frame, crank, coupler, rocker: the coupler is the shortest link, then there is no short one, with either limit of the crank.
-        for [frame, crank, coupler, rocker] in [[4.0, 3.0, 1.0, 3.5], [4.0, 3.0, 2.0, 2.5], [2.0, 3.0, 4.0, 2.5], [4.0, 2.5, 2.0, 3.0]] {
+        for [frame, crank, coupler, rocker] in
+            [[4.0, 3.0, 1.0, 3.5], [4.0, 3.0, 2.0, 2.5], [2.0, 3.0, 4.0, 2.5], [4.0, 2.5, 2.0, 3.0]]
+        {
             // Newton's method keeps the coupler's length while the walk goes on at right angles to its gradient.
-            let points = |[a, d]: [f64; 2]| ([crank * a.cos(), crank * a.sin()], [frame + rocker * d.cos(), rocker * d.sin()]);
+            let points =
+                |[a, d]: [f64; 2]| ([crank * a.cos(), crank * a.sin()], [frame + rocker * d.cos(), rocker * d.sin()]);
             let open = |at: [f64; 2]| {
                 let (b, c) = points(at);
                 let [x, y] = minus(&c, &b);
-                let slope = [2.0 * crank * (x * at[0].sin() - y * at[0].cos()), 2.0 * rocker * (y * at[1].cos() - x * at[1].sin())];
+                let slope = [
+                    2.0 * crank * (x * at[0].sin() - y * at[0].cos()),
+                    2.0 * rocker * (y * at[1].cos() - x * at[1].sin()),
+                ];
                 (x * x + y * y - coupler * coupler, slope)
             };
             let settled = |mut at: [f64; 2]| {
@@ -300,12 +311,18 @@ mod tests {
                 assert!(walk.len() < 4000, "the circuit is closed");
             }
             let of = |shares: [usize; 5]| {
-                let (moving, other): (Vec<Point>, Vec<Point>) = shares.map(|k| points(walk[walk.len() * k / 10 + 3])).into_iter().unzip();
+                let (moving, other): (Vec<Point>, Vec<Point>) =
+                    shares.map(|k| points(walk[walk.len() * k / 10 + 3])).into_iter().unzip();
                 let (one, two) = (Arm { fixed: [0.0, 0.0], moving }, Arm { fixed: [frame, 0.0], moving: other });
                 four_bar(Source::Dyads([0, 1]), &one, &two).unwrap()
             };
             let forth = of([0, 2, 4, 6, 8]);
-            assert_eq!((forth.one_circuit, forth.in_order, forth.without_limit), (Some(true), Some(true), Some(false)), "{}", forth.class);
+            assert_eq!(
+                (forth.one_circuit, forth.in_order, forth.without_limit),
+                (Some(true), Some(true), Some(false)),
+                "{}",
+                forth.class
+            );
             assert!(of([8, 6, 4, 2, 0]).is_sound() && of([4, 6, 8, 0, 2]).is_sound());
             assert!(!of([0, 4, 2, 6, 8]).is_sound() && !of([0, 2, 4, 8, 6]).is_sound());
             // Positions between two limits of the crank, where its angle goes one way.

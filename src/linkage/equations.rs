@@ -214,7 +214,13 @@ impl<R: Half> Closure<R> {
     /// The equations with one cycle more: the place of a point of a body in coordinates of the body `base`, whose class
     /// rests so that `base` has the rotation 1. Less a point of the plane, it is zero where the point of the body is there.
     #[must_use]
-    pub fn traced(&self, state: &State<R>, base: usize, body: usize, point: &Isotropic<R>) -> Option<Equations<Isotropic<R>>> {
+    pub fn traced(
+        &self,
+        state: &State<R>,
+        base: usize,
+        body: usize,
+        point: &Isotropic<R>,
+    ) -> Option<Equations<Isotropic<R>>> {
         let node_of = |body: usize| self.clusters.iter().find(|node| node.name == state.bodies[body].0);
         let (ground, carrier) = (node_of(base)?, node_of(body)?);
         let place = |body: usize| &state.bodies[body].1;

@@ -51,12 +51,7 @@ fn unite(merged: &mut Merged, group: &Group) {
 }
 
 /// Returns the least set of clusters that holds gears, is connected by joints and is rigid by count.
-fn least(
-    bodies: usize,
-    joints: &[(usize, [usize; 2])],
-    gears: &[Gear],
-    merged: &mut Merged,
-) -> Result<Option<Group>> {
+fn least(bodies: usize, joints: &[(usize, [usize; 2])], gears: &[Gear], merged: &mut Merged) -> Result<Option<Group>> {
     let roots: BTreeSet<usize> = (0..bodies).map(|body| merged.root(body)).collect();
     let place: HashMap<usize, usize> = roots.iter().enumerate().map(|(k, root)| (*root, k)).collect();
     let mut bit = |body: usize| 1_u32 << place.get(&merged.root(body)).copied().unwrap_or(0);

@@ -154,7 +154,8 @@ fn extend(
             let (turns, shifts) = start(choice, approximate, middle(&x), &kernel?)?;
             prove(equations, choice.rest, &turns, &shifts)
         };
-        let is_new = |proved: &Proved, found: &Found| found.solutions.iter().all(|known| differ(known, proved, choice.rest));
+        let is_new =
+            |proved: &Proved, found: &Found| found.solutions.iter().all(|known| differ(known, proved, choice.rest));
         let first = proved(approximate_kernel(choice, middle(&x)));
         led += usize::from(first.is_some());
         let mut fresh = first.filter(|one| is_new(one, found));
@@ -265,8 +266,7 @@ fn linear_determinant(pencil: &Pencil<Residue>) -> Option<Univariate<Residue>> {
     let mut slope = constant.clone();
     for (k, row) in pencil.rows.iter().enumerate() {
         let [by, inverse] = &row.by[0];
-        let (rest, first) =
-            if inverse.is_zero() { (&mut constant, &mut slope) } else { (&mut slope, &mut constant) };
+        let (rest, first) = if inverse.is_zero() { (&mut constant, &mut slope) } else { (&mut slope, &mut constant) };
         if !inverse.is_zero() && !by.is_zero() {
             return None;
         }
@@ -288,9 +288,13 @@ fn linear_determinant(pencil: &Pencil<Residue>) -> Option<Univariate<Residue>> {
     let coefficients = reversed.map(|(k, c)| if k % 2 == 1 { c.neg() } else { *c }).collect();
     let step = Univariate::new(vec![start.neg(), Residue::one()]);
     let shifted: Univariate<Residue> = Univariate::new(coefficients);
-    Some(shifted.coefficients().iter().rev().fold(Univariate::zero(), |sum, c| {
-        sum.mul(&step).add(&Univariate::constant(*c))
-    }))
+    Some(
+        shifted
+            .coefficients()
+            .iter()
+            .rev()
+            .fold(Univariate::zero(), |sum, c| sum.mul(&step).add(&Univariate::constant(*c))),
+    )
 }
 
 /// `A^-1 B`; `None` where A is singular.
@@ -355,7 +359,8 @@ fn choice(exact: &Equations<Isotropic<Gaussian>>, rest: usize, hidden: usize) ->
 /// Returns discs of all roots; `None` where no precision separates them.
 fn hidden_rotations(square_free: &Univariate<rug::Integer>) -> Option<Vec<Disc>> {
     fn middles<const BITS: u32>(roots: &[Isolated<BITS>]) -> Vec<Disc> {
-        let disc = |root: &Isolated<BITS>| Disc::new(root.ball.re().clone(), root.ball.im().clone(), root.ball.radius());
+        let disc =
+            |root: &Isolated<BITS>| Disc::new(root.ball.re().clone(), root.ball.im().clone(), root.ball.radius());
         roots.iter().map(disc).collect()
     }
     let short = isolated_roots::<512>(square_free).map(|roots| middles(&roots));
@@ -456,7 +461,9 @@ fn start(
             Some(q) => equations.slides[q].coefficients[k].z * turns[equations.slides[q].class],
         });
         let told = (0..equations.classes).filter(|class| !untold.contains(class)).collect::<Vec<usize>>();
-        let b = DVector::from_fn(loops, |k, _| -told.iter().map(|j| equations.cycles[k][*j].z * turns[*j]).sum::<Complex<f64>>());
+        let b = DVector::from_fn(loops, |k, _| {
+            -told.iter().map(|j| equations.cycles[k][*j].z * turns[*j]).sum::<Complex<f64>>()
+        });
         let solved: Vec<Complex<f64>> = a.svd(true, true).solve(&b, 1e-12).ok()?.iter().copied().collect();
         untold.iter().zip(&solved).for_each(|(class, turn)| turns[*class] = *turn);
         return is_torus(&turns).then(|| (turns, solved[untold.len()..].to_vec()));

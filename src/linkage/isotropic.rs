@@ -92,9 +92,7 @@ pub fn disc_of(z: &Gaussian) -> Disc {
 /// All rotations whose cosine and sine are enclosed.
 #[must_use]
 pub fn turn_within((cos, sin): &(Enclosure, Enclosure)) -> Isotropic<Value> {
-    let real = |one: &Enclosure| {
-        Disc::of(&one.middle().to_rational().unwrap_or_default(), BITS).widened(&one.error())
-    };
+    let real = |one: &Enclosure| Disc::of(&one.middle().to_rational().unwrap_or_default(), BITS).widened(&one.error());
     let i = Disc::point(Float::new(BITS), Float::with_val(BITS, 1));
     let (cos, sin) = (real(cos), real(sin).mul(&i));
     Isotropic { z: Value::within(cos.add(&sin)), w: Value::within(cos.sub(&sin)) }

@@ -63,7 +63,9 @@ impl SixUnknowns {
         let ends = [&open.before_gap, &closing, &open.after_gap];
         let links: f64 = open.constants.iter().chain(ends).map(length).sum();
         let interval = |motion: Motion<Enclosure>| motion.map(|x| Some(Interval::from(x)));
-        let Some(constants) = closed.constants.into_iter().map(interval).collect::<Option<Vec<_>>>() else { return false };
+        let Some(constants) = closed.constants.into_iter().map(interval).collect::<Option<Vec<_>>>() else {
+            return false;
+        };
         let Ok(constants) = constants.try_into() else { return false };
         let closed = ClosedLoop { variables: closed.variables, constants };
         plan.one_off(&closed, miss(links, tolerance)).is_some_and(|bound| bound < CONTRADICTION)

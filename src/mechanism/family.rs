@@ -111,7 +111,8 @@ impl Joints<'_> {
             all.push(q);
             let ends = outside.get(k + 1).map(|next| [outside[k], *next]);
             // A joint goes no farther than a step.
-            let way = |next: &Vec<f64>| next.iter().zip(&shape.points[k]).map(|(x, y)| (x - y).abs()).fold(LONGEST, f64::max);
+            let way =
+                |next: &Vec<f64>| next.iter().zip(&shape.points[k]).map(|(x, y)| (x - y).abs()).fold(LONGEST, f64::max);
             let longest = shape.points.get(k + 1).map_or(LONGEST, way);
             let Some([one, other]) = ends.filter(|ends| ends.iter().all(|x| *x > 0.0 && *x < longest)) else {
                 continue;

@@ -1,16 +1,16 @@
 //! A loop followed through its input: velocities, accelerations and the points of its curve.
 
 use super::FullMode;
-use super::spherical_angles::{Jet, TurnedJoint, ss_dyad_angles};
 use super::overconstrained_loop::filled_up;
 use super::single_loop::{closing_transformation, idle_spin, locked_variable};
+use super::spherical_angles::{Jet, TurnedJoint, ss_dyad_angles};
 use crate::algebra::number::{Angle, HalfTangent, Number};
 use crate::algebra::series::Series;
 use crate::catalogue::entry::{Case, Design, Entry, Input, InputValue};
 use crate::elimination::spherical_pair;
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Chain;
-use crate::kinematics::closed_loop::{Layout, Numbers, OpenSsDyad, OpenLoop, Variable};
+use crate::kinematics::closed_loop::{Layout, Numbers, OpenLoop, OpenSsDyad, Variable};
 use crate::kinematics::idle::Idle;
 use crate::kinematics::motion::Motion;
 use crate::solve::curve::{ALONG_INPUT, Curve, INPUT, Point};
@@ -156,8 +156,9 @@ impl InputCurve {
             }
             Way::Loop { spherical, .. } => {
                 let unknowns = self.layout.unknowns(q).expect("one value for every joint variable");
-                let is_spherical =
-                    |k: usize| spherical.as_ref().is_some_and(|spherical| (spherical.unknown..spherical.unknown + 3).contains(&k));
+                let is_spherical = |k: usize| {
+                    spherical.as_ref().is_some_and(|spherical| (spherical.unknown..spherical.unknown + 3).contains(&k))
+                };
                 std::array::from_fn(|k| match k {
                     INPUT => given,
                     _ if is_spherical(k) => 0.0,

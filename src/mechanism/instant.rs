@@ -92,10 +92,10 @@ pub fn relative(body: &Moving, against: &Moving) -> State<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::catalogue::{Any, Options, load_any};
-    use crate::catalogue::entry::Design;
-    use crate::mechanism::{InputCurve, Mechanism};
     use crate::assembly::{Assembly, Roots, Workspace};
+    use crate::catalogue::entry::Design;
+    use crate::catalogue::{Any, Options, load_any};
+    use crate::mechanism::{InputCurve, Mechanism};
 
     #[test]
     fn the_body_behind_the_last_joint_of_a_loop_rests() {

@@ -34,12 +34,12 @@ pub use crate::kinematics::tolerance::{PoseError, Tolerance};
 use crate::kinematics::velocity::Velocity;
 use crate::verdict::Verdict;
 use num_complex::Complex;
+use overconstrained_loop::OverconstrainedLoop;
 use platform::PreparedPlatform;
 pub use platform::{exact_modes as platform_modes, over as platform_over};
 pub use redundancy::{Redundancy, redundancy};
-use overconstrained_loop::OverconstrainedLoop;
 use single_loop::SingleLoop;
-pub use single_loop::{closed_loop, ss_dyad_loop, locked_variable};
+pub use single_loop::{closed_loop, locked_variable, ss_dyad_loop};
 pub use task_arm::ArmAnswer;
 use task_arm::TaskArm;
 use turns::Turns;
@@ -178,7 +178,7 @@ impl Mechanism {
             }
             Design::Platform(geometry) => {
                 Solver::Platform(Box::new(PreparedPlatform::prepare(geometry, &entry.platform_limits)?))
-            },
+            }
         };
         let turns = Turns::of(entry.chain(), &entry.limits);
         Ok(Self { solver, turns, tolerance: None })

@@ -4,8 +4,8 @@ mod few_revolutes;
 
 use super::by_input::{ByInput, Prepared};
 use super::exact_loop::{self, Question};
-use super::spherical_chain::{Positions, positions};
 use super::single_loop::{closing_transformation, full_mode, is_exact, locked_value, within_limits};
+use super::spherical_chain::{Positions, positions};
 use super::{FullMode, Solution};
 use crate::algebra::drawn::Drawn;
 use crate::algebra::long_float::LongFloat;
@@ -428,7 +428,9 @@ impl OverconstrainedLoop {
             let (unknowns, residual) = closer(&closed, &own, joints.map(|joint| joint.is_none()), real);
             // With virtual rotations the closure equations have six unknowns, and a simple solution alone is a proof.
             let spherical = joints.iter().position(|joint| joint.is_some() && *joint == layout.spherical);
-            let proof = spherical.filter(|_| multiplicity == 1).and_then(|spherical| proof(&closed, &unknowns, spherical, real));
+            let proof = spherical
+                .filter(|_| multiplicity == 1)
+                .and_then(|spherical| proof(&closed, &unknowns, spherical, real));
             let q = filled.assemble(&std::array::from_fn(|k| unknowns[k] * units[k]), locked);
             let within = (real && !self.limits.is_empty()).then(|| within_limits(&q, &layout.variables, &self.limits));
             modes.push(FullMode {

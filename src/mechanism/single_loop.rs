@@ -5,13 +5,12 @@ mod real_list;
 
 use super::bounds::{MODULO, of_cuts, of_ring, of_triple};
 use super::by_input::{ByInput, Prepared};
-use super::unproved::{is_left_to_equations, is_settled, moving, not_moving, perhaps_near};
 use super::data::{Data, Modular, is_rational};
 use super::dependence::dependent;
-use super::exact_loop::{SsDyadQuestion, Question as ExactQuestion};
+use super::exact_loop::{Question as ExactQuestion, SsDyadQuestion};
+use super::unproved::{is_left_to_equations, is_settled, moving, not_moving, perhaps_near};
 use super::vicinity::Vicinity;
 use super::{FullMode, Solution};
-use real_list::of_real_zeros;
 use crate::algebra::double_double::DoubleDouble;
 use crate::algebra::drawn::{self, Drawn};
 use crate::algebra::enclosure::Enclosure;
@@ -27,7 +26,7 @@ use crate::error::{Error, Result};
 use crate::exact::{self, BALL_BITS, MOST_WITH_TRIPLE, Resolution, has_no_solution};
 use crate::kinematics::chain::{Chain, JointKind, Placement};
 use crate::kinematics::closed_loop::{
-    ClosedLoop, SsDyad, Layout, Numbers, OpenSsDyad, OpenLoop, Variable, angle_motion, distance_motion,
+    ClosedLoop, Layout, Numbers, OpenLoop, OpenSsDyad, SsDyad, Variable, angle_motion, distance_motion,
 };
 use crate::kinematics::freedom::Freedom;
 use crate::kinematics::motion::{Motion, unit_near};
@@ -35,6 +34,7 @@ use crate::kinematics::tolerance::Tolerance;
 use crate::solve::scalar::Extended;
 use crate::verdict::{Bound, Code, Proof, Status, Verdict, verdict};
 use num_complex::Complex;
+use real_list::of_real_zeros;
 use rug::Rational;
 use std::cell::{OnceCell, RefCell};
 use std::f64::consts::TAU;
@@ -188,7 +188,9 @@ impl SingleLoop {
         let Prepared { of, prepare_us, .. } = self.prepared.of(&self.chain, case)?;
         let prepared = match of {
             Way::Six(prepared) => prepared,
-            Way::SphericalPair(spherical_joints) => return self.solve_ss_dyad(spherical_joints, *prepare_us, case, roots, workspace, assembly),
+            Way::SphericalPair(spherical_joints) => {
+                return self.solve_ss_dyad(spherical_joints, *prepare_us, case, roots, workspace, assembly);
+            }
         };
         let solver = &prepared.solver;
         let gap = self.gap(prepared, case)?;
@@ -282,7 +284,8 @@ impl SingleLoop {
         let values = |mode: &Mode| prepared.layout.assemble(&mode.unknowns, locked_value);
         let full = |mode: &Mode| full_mode(mode, values(mode), &prepared.layout.variables, &self.limits);
         let is_listed = |mode: &&Mode| mode.real || roots == Roots::All;
-        let mut modes = exact_modes.unwrap_or_else(|| assembly.modes.iter().filter(is_listed).map(full).collect::<Vec<_>>());
+        let mut modes =
+            exact_modes.unwrap_or_else(|| assembly.modes.iter().filter(is_listed).map(full).collect::<Vec<_>>());
         let vicinity = Vicinity { of: self, prepared, locked: locked_value.re, gap };
         let is_moving = verdict.status == Status::SelfMotion;
         let mut families = if is_moving { vicinity.families(&assembly.families) } else { Vec::new() };
@@ -464,7 +467,8 @@ impl Question<'_> {
         let (rank, general) = (self.rank(), self.prepared.general());
         let here = || if self.only_lists { None } else { self.count_here(assembly.total()) };
         // What misses the pose by less than the tolerance is near.
-        let is_beyond = |(gap, links): &(f64, f64)| self.tolerance.is_none_or(|own| gap - links > own.length + own.angle * links);
+        let is_beyond =
+            |(gap, links): &(f64, f64)| self.tolerance.is_none_or(|own| gap - links > own.length + own.angle * links);
         let too_far = solver.too_far(self.gap).filter(is_beyond);
         let verdict = verdict(assembly, roots, rank, general, everywhere, here, too_far);
         // Incidences of rounded axes may be those of the rounded numbers only.
@@ -581,7 +585,8 @@ impl Question<'_> {
             if is_settled(&verdict) {
                 // The list is that of what is asked for; complex ones lead to near ones.
                 let is_listed = |mode: &&Mode| mode.real || self.roots == Roots::All;
-                let certified = assembly.modes.iter().filter(is_listed).filter(|mode| mode.certificate.is_some()).count();
+                let certified =
+                    assembly.modes.iter().filter(is_listed).filter(|mode| mode.certificate.is_some()).count();
                 let complex_complete = verdict.complex_complete && self.roots == Roots::All;
                 return Verdict { complex_complete, certified, ..verdict };
             }
@@ -670,7 +675,8 @@ impl Question<'_> {
     /// Returns whether it is proved that no real configuration reaches the pose, or closes the loop, within the tolerance.
     fn is_clear(&self, tolerance: Tolerance) -> bool {
         let SixUnknowns { solver, .. } = self.prepared;
-        let beyond = solver.too_far(self.gap).map(|(gap, links)| gap - links - tolerance.length - tolerance.angle * links);
+        let beyond =
+            solver.too_far(self.gap).map(|(gap, links)| gap - links - tolerance.length - tolerance.angle * links);
         let is_contradictory = |plan| self.prepared.is_clear(&self.of.chain, self.case, plan, tolerance);
         beyond.is_some_and(|beyond| beyond > 0.0) || self.plan().is_some_and(is_contradictory)
     }

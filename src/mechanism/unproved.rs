@@ -44,7 +44,10 @@ pub(super) fn not_denied(verdict: Verdict) -> Verdict {
 
 /// Returns the verdict on a pose that dependent joints do not reach exactly, where it is not proved that nothing comes near it.
 pub(super) fn perhaps_near(verdict: &Verdict) -> Verdict {
-    let reason = format!("not proved: nothing was found near the pose, but rounding decides what reaches it exactly; {}", verdict.reason);
+    let reason = format!(
+        "not proved: nothing was found near the pose, but rounding decides what reaches it exactly; {}",
+        verdict.reason
+    );
     let (status, proof, code) = (Status::Incomplete, Proof::None, Code::StructurallyDeficient);
     Verdict { status, proof, code, complex_complete: false, reason, ..verdict.clone() }
 }

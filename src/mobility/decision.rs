@@ -501,7 +501,8 @@ impl Subject<'_> {
         };
         let values: Vec<JointValue<f64>> = q.iter().enumerate().map(value).collect();
         let linkage: Option<Linkage<f64>> = self.linkage.map();
-        let germ = linkage.map(|linkage| Germ::of(&linkage.at(&values).with_regular_spherical_joints(&self.spherical_joints())));
+        let germ = linkage
+            .map(|linkage| Germ::of(&linkage.at(&values).with_regular_spherical_joints(&self.spherical_joints())));
         let system = germ.as_ref().map(Germ::system);
         let freedom = system.as_ref().map(ScrewSystem::loop_freedom);
         let rank = freedom.as_ref().map_or(0, |freedom| freedom.order);

@@ -111,13 +111,13 @@ impl Subject<'_> {
         }
         let solution = solve(self.entry, Case::free(0), false).ok()?;
         let verdict = &solution.verdict;
-        let is_decided =
-            verdict.status == Status::Complete && verdict.proof.is_proved() && verdict.complex_complete;
+        let is_decided = verdict.status == Status::Complete && verdict.proof.is_proved() && verdict.complex_complete;
         if !is_decided || verdict.real == 0 {
             return None;
         }
         let real = solution.modes.iter().filter(|mode| mode.real);
-        let place = |mode: &FullMode| self.placed(mode.q.iter().map(|z| z.re).collect(), Local::Manifold { dimension: 1 });
+        let place =
+            |mode: &FullMode| self.placed(mode.q.iter().map(|z| z.re).collect(), Local::Manifold { dimension: 1 });
         let configurations: Vec<Configuration> = real.map(place).collect();
         let reason = format!(
             "the equation for the distance of the centres of both S joints leaves the other joint finitely many values: {}; only the spin \
@@ -157,7 +157,9 @@ impl Subject<'_> {
                  their centres"
             ),
             _ => {
-                let pairs = (0..spherical_joints.len()).map(|k| format!("{} and {}", spherical_joints[k], spherical_joints[(k + 1) % spherical_joints.len()]));
+                let pairs = (0..spherical_joints.len()).map(|k| {
+                    format!("{} and {}", spherical_joints[k], spherical_joints[(k + 1) % spherical_joints.len()])
+                });
                 format!(
                     "; {} of these freedoms are idle: the spins of what stands between the S joints {} about the lines of their \
                      centres",
@@ -210,7 +212,8 @@ impl Subject<'_> {
                 };
                 // A joint that a single input cannot hold is held in another way.
                 let solution = solve(self.entry, Case::given(Input { joint, value }, 0), false).ok()?;
-                let certified: Vec<&FullMode> = solution.modes.iter().filter(|m| m.real && m.certified && m.multiplicity < 2).collect();
+                let certified: Vec<&FullMode> =
+                    solution.modes.iter().filter(|m| m.real && m.certified && m.multiplicity < 2).collect();
                 if !certified.is_empty() {
                     let configurations: Vec<Configuration> = certified.into_iter().map(|m| self.measured(m)).collect();
                     return Some(Search { held: vec![(k, held)], configurations, complex: solution.verdict.complex });
@@ -324,7 +327,13 @@ impl<'a> Assembler<'a> {
         let mut columns: Vec<DVector<f64>> = (0..n).map(|k| DVector::from_fn(6, |i, _| matrix[(i, k)])).collect();
         let largest = columns.iter().map(DVector::norm).fold(0.0, f64::max);
         let spherical_joints = self.subject.spherical_joints();
-        let weight = |k: usize| if spherical_joints.iter().any(|spherical| (*spherical..spherical + 3).contains(&k)) { SPHERICAL } else { 1.0 };
+        let weight = |k: usize| {
+            if spherical_joints.iter().any(|spherical| (*spherical..spherical + 3).contains(&k)) {
+                SPHERICAL
+            } else {
+                1.0
+            }
+        };
         let mut kept: Vec<usize> = Vec::new();
         for _ in 0..6 {
             let size = |k: &usize| columns[*k].norm() * weight(*k);
@@ -371,7 +380,8 @@ impl<'a> Assembler<'a> {
         let is_free = |spherical: &usize| !held.iter().any(|k| (*spherical..spherical + 3).contains(k));
         let spherical = self.subject.spherical_joints().into_iter().find(is_free);
         let spherical = spherical.map(|spherical| spherical - held.iter().filter(|k| **k < spherical).count());
-        let solver = spherical.map_or_else(|| Solver::prepare(&open), |spherical| Solver::with_spherical_joint(&open, spherical));
+        let solver = spherical
+            .map_or_else(|| Solver::prepare(&open), |spherical| Solver::with_spherical_joint(&open, spherical));
         let mut assembly = Assembly::default();
         if !solver.is_out_of_reach() {
             let gap = solver.exact_gap(&last);

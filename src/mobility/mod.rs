@@ -20,7 +20,7 @@ pub use crate::exact::{Axis, Conjugates, JointValue, Linkage, Position, Position
 pub use answer::{Configuration, Held, JointVariable, Mobility};
 pub use count::{at_most, count};
 pub use decision::mobility;
-pub use planar::{LinkageMobility, planar_mobility, solve_or_move};
 pub use order::{Germ, Local};
+pub use planar::{LinkageMobility, planar_mobility, solve_or_move};
 pub use search::moves;
 pub use spatial::{Shafts, space_mobility, sphere_mobility};

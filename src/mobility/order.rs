@@ -145,7 +145,8 @@ impl<F: Field> Germ<F> {
         let mut most = vec![vec![0; n + 1]; n + 1];
         for first in (0..n).rev() {
             for end in first + 2..=n {
-                let arcs = (first + 1..end).filter(|k| are_one(first, *k)).map(|k| most[first + 1][k] + 1 + most[k][end]);
+                let arcs =
+                    (first + 1..end).filter(|k| are_one(first, *k)).map(|k| most[first + 1][k] + 1 + most[k][end]);
                 most[first][end] = arcs.chain([most[first + 1][end]]).max().unwrap_or(0);
             }
         }

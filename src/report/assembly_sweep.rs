@@ -68,11 +68,7 @@ pub fn text<M>(input: Input<'_>, sweep: &AssemblySweep<M>, more: Option<(&str, &
     let range = [sweep.range.from, sweep.range.to].map(|x| short(input.value(x), digits));
     let turn = if sweep.is_full_turn { ", a full turn" } else { "" };
     let steps = counted(sweep.range.steps, "step");
-    let _ = writeln!(
-        text,
-        "{}, {} from {} to {} {unit} in {steps}{turn}",
-        input.title, input.name, range[0], range[1]
-    );
+    let _ = writeln!(text, "{}, {} from {} to {} {unit} in {steps}{turn}", input.title, input.name, range[0], range[1]);
     let words = |end: &End| match end {
         End::Limit(limit) => format!("limit {}", limit + 1),
         End::Range => "end of range".to_owned(),
@@ -117,12 +113,7 @@ pub fn text<M>(input: Input<'_>, sweep: &AssemblySweep<M>, more: Option<(&str, &
 
 /// Returns the lines and the dots of a graph: one line for every branch and turn, one dot for every limit position.
 #[must_use]
-pub fn graph<M>(
-    sweep: &AssemblySweep<M>,
-    label: String,
-    is_turn: bool,
-    point: impl Fn(f64, &M) -> [f64; 2],
-) -> Graph {
+pub fn graph<M>(sweep: &AssemblySweep<M>, label: String, is_turn: bool, point: impl Fn(f64, &M) -> [f64; 2]) -> Graph {
     let line = |branch: &AssemblyBranch| {
         let limit = |end: &End| match end {
             End::Limit(limit) => Some(point(sweep.limits[*limit].input, &sweep.limits[*limit].mode)),

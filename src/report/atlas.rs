@@ -1,12 +1,12 @@
 //! The text of a `.eqs` file: closure equations and closure polynomial of an entry, where they fit two pages; and whether
 //! a file that is there is that text.
 
+use super::linkage_derivation::tangent;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::text::{Format, Names};
 use crate::catalogue::entry::{Design, Entry};
-use crate::claims::{Finding, Sort};
-use super::linkage_derivation::tangent;
 use crate::catalogue::{LinkageFile, SphereFile};
+use crate::claims::{Finding, Sort};
 use crate::derivation::{derive_linkage, platform_equations, transfer};
 use crate::error::{Error, Result};
 use crate::sweep::derive_any;
@@ -80,7 +80,12 @@ fn digits<T: ToString>(numbers: impl Iterator<Item = T>) -> usize {
 }
 
 /// A row of that table: its columns, or why there are none. `page` is the last one.
-fn row_of(name: &str, title: &str, page: &str, derive: impl FnOnce() -> std::result::Result<Columns, String>) -> String {
+fn row_of(
+    name: &str,
+    title: &str,
+    page: &str,
+    derive: impl FnOnce() -> std::result::Result<Columns, String>,
+) -> String {
     let start = Instant::now();
     let found = derive();
     let time = start.elapsed().as_secs_f64() * 1e3;
@@ -147,7 +152,12 @@ pub fn sphere_row(file: &SphereFile, name: &str) -> String {
         let joint = |joint: usize| &file.linkage.joints[joint].name;
         Ok(Columns {
             degree: found.polynomial.degree(1) as usize,
-            unknown: format!("t_{}, with t_{} of degree {}", joint(found.output), joint(found.input), found.polynomial.degree(0)),
+            unknown: format!(
+                "t_{}, with t_{} of degree {}",
+                joint(found.output),
+                joint(found.input),
+                found.polynomial.degree(0)
+            ),
             real: None,
             digits: digits(found.polynomial.terms().map(|(_, c)| c.to_integer())),
         })

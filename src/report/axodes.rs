@@ -137,7 +137,8 @@ fn axis(body: &Moving, all: &[Moving]) -> Option<Value> {
     let direction = screw.axis.direction.map(|c| c / rate);
     let back = body.map(|series| Some(series.coefficients[0]))?.inverse();
     let own = Line::at(&back.apply(&point), &back.rotate(&direction)).point()?;
-    let shown = |direction: &Vector<f64>, point: &Vector<f64>| json!({ "direction": list(direction), "point": list(point) });
+    let shown =
+        |direction: &Vector<f64>, point: &Vector<f64>| json!({ "direction": list(direction), "point": list(point) });
     Some(json!({
         "fixed": shown(&direction, &point),
         "moving": shown(&back.rotate(&direction), &own),

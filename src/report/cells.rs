@@ -208,7 +208,8 @@ fn weakest(map: &CellMap) -> Proof {
         Proof::Probable { .. } => 2,
         Proof::Proved => 3,
     };
-    let proofs = map.columns.iter().map(|column| column.cells.as_ref().map_or(Proof::None, |cells| cells.verdict.proof));
+    let proofs =
+        map.columns.iter().map(|column| column.cells.as_ref().map_or(Proof::None, |cells| cells.verdict.proof));
     proofs.min_by_key(rank).unwrap_or(Proof::None)
 }
 

@@ -134,7 +134,11 @@ impl Picture<'_> {
                 self.up(y)
             );
         }
-        let _ = writeln!(text, "</svg>\n<rect width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#888\"/>", PLANE[0], PLANE[1]);
+        let _ = writeln!(
+            text,
+            "</svg>\n<rect width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#888\"/>",
+            PLANE[0], PLANE[1]
+        );
         self.axes(&mut text);
         shown.sort_unstable();
         shown.dedup();
@@ -226,7 +230,8 @@ impl Picture<'_> {
         }
         for tick in ticks(y, is_angle(self.kinds[1])) {
             let at = PLANE[1] * (1.0 - (tick - y[0]) / (y[1] - y[0]));
-            let _ = writeln!(text, "<text x=\"-6\" y=\"{:.1}\" text-anchor=\"end\">{}</text>", at + 4.0, tick_text(tick));
+            let _ =
+                writeln!(text, "<text x=\"-6\" y=\"{:.1}\" text-anchor=\"end\">{}</text>", at + 4.0, tick_text(tick));
         }
         let _ = writeln!(
             text,

@@ -1,10 +1,11 @@
 //! The certificate of an answer: docs/certificate.md.
 
-use crate::catalogue::entry::{Case, Design, Entry};
 use crate::assembly::{Assembly, Roots, Solver, Workspace};
+use crate::catalogue::entry::{Case, Design, Entry};
 use crate::certificate::{
-    Ball, ChainClosure, Closed, FORMAT, Fault, Near, VERSION, balls, check, closed, data_of, data_of_loop, proof_by_distance, proof_of,
-    proof_of_motion, proof_of_own, proof_of_points, proof_of_polynomial, proof_of_real_list, proof_of_rest,
+    Ball, ChainClosure, Closed, FORMAT, Fault, Near, VERSION, balls, check, closed, data_of, data_of_loop,
+    proof_by_distance, proof_of, proof_of_motion, proof_of_own, proof_of_points, proof_of_polynomial,
+    proof_of_real_list, proof_of_rest,
 };
 use crate::derivation::Derivation;
 use crate::kinematics::joint::Variable;
@@ -30,12 +31,12 @@ pub fn certificate(entry: &Entry, number: usize, case: &Case, solution: &Solutio
     }
     let data = data_of(entry, case)?;
     let closed = closed(entry, case).map_err(|fault| words(&fault))?;
-    let short = if let Closed::Chain(closure) = &closed { Some(closure).filter(|closure| closure.is_short()) } else { None };
+    let short =
+        if let Closed::Chain(closure) = &closed { Some(closure).filter(|closure| closure.is_short()) } else { None };
     if solution.arm.is_some() && short.is_none() {
         return Err("answers to arms of more than six joints, to tasks and with joints held are not covered".to_owned());
     }
-    let info =
-        json!({ "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": entry.name, "title": entry.title, "case": number });
+    let info = json!({ "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": entry.name, "title": entry.title, "case": number });
     if let Some(closure) = short {
         let (claim, balls, proof) = of_short_loop(closure, &closed, solution)?;
         return accepted(&info, &data, &claim, &balls, &proof);
@@ -74,7 +75,8 @@ fn of_short_loop(
     solution: &Solution,
 ) -> Result<(Value, Vec<Ball>, Vec<Value>), String> {
     let near = found(closure);
-    let all = balls(closed, &near).ok_or("a solution of the longer loop is too ill conditioned for a ball of its own")?;
+    let all =
+        balls(closed, &near).ok_or("a solution of the longer loop is too ill conditioned for a ball of its own")?;
     let (own, points) = proof_of_points(closure, &near, &all)
         .ok_or("the solutions are no points with coordinates of few digits over one polynomial")?;
     let by_own = || Some((own.clone(), proof_of_own(closure, &own)?));
@@ -155,8 +157,7 @@ pub fn certificate_of_polynomial(
     claim["unknown"] = json!(unknown + 1);
     claim["degree"] = json!(coefficients.len() - 1);
     claim["polynomial"] = json!(texts);
-    let info =
-        json!({ "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": entry.name, "title": entry.title, "case": number });
+    let info = json!({ "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": entry.name, "title": entry.title, "case": number });
     accepted(&info, &data, &claim, &balls, &[proof, membership])
 }
 
@@ -176,15 +177,19 @@ fn found(closure: &ChainClosure) -> Vec<Near> {
 pub fn certificate_of_motion(entry: &Entry, answer: &Mobility) -> Result<Value, String> {
     let dimension = match answer.mobility {
         Some(dimension @ 0..=1) if answer.proof.is_proved() => dimension,
-        Some(_) if answer.proof.is_proved() => return Err("motions of more than one dimension are not covered".to_owned()),
+        Some(_) if answer.proof.is_proved() => {
+            return Err("motions of more than one dimension are not covered".to_owned());
+        }
         _ => return Err("the answer is not proved".to_owned()),
     };
     let data = data_of_loop(entry)?;
     let configurations: Vec<Vec<f64>> = answer.configurations.iter().map(|own| own.q.clone()).collect();
-    let found = if dimension > 0 { proof_of_motion(entry, &configurations, &found) } else { proof_of_rest(entry, &found) };
+    let found =
+        if dimension > 0 { proof_of_motion(entry, &configurations, &found) } else { proof_of_rest(entry, &found) };
     let (proof, balls) = found
         .ok_or_else(|| format!("no theorem of docs/certificate.md applies: the code is {}", answer.code.word()))?;
-    let info = json!({ "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": entry.name, "title": entry.title });
+    let info =
+        json!({ "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": entry.name, "title": entry.title });
     let claim = json!({
         "verb": "mobility",
         "status": if dimension == 0 { "immobile" } else { "mobile" },

@@ -360,7 +360,8 @@ pub fn text(ansatz: &Ansatz, search: &Search) -> String {
         fit_text(ansatz, fitted, &mut text);
     }
     composed_text(search, &mut text);
-    if let Some(curves) = search.curves.as_ref().filter(|curves| !curves.loops.is_empty() || search.composed.is_empty()) {
+    if let Some(curves) = search.curves.as_ref().filter(|curves| !curves.loops.is_empty() || search.composed.is_empty())
+    {
         curve_text(curves, &mut text);
     }
     if let Some(member) = &search.member {
@@ -681,9 +682,7 @@ pub fn json(ansatz: &Ansatz, search: &Search) -> Value {
 }
 
 fn composed(search: &Search, one: &Composed) -> Value {
-    let link = |Link { cos, sin, a, d }: &Link<Rational>| {
-        json!({ "cos_alpha": cos.to_string(), "sin_alpha": sin.to_string(), "a": a.to_string(), "d": d.to_string() })
-    };
+    let link = |Link { cos, sin, a, d }: &Link<Rational>| json!({ "cos_alpha": cos.to_string(), "sin_alpha": sin.to_string(), "a": a.to_string(), "d": d.to_string() });
     json!({
         "name": one.name,
         "made": one.made,

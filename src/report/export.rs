@@ -60,15 +60,19 @@ pub(super) fn relations(lines: &[Line], names: &Names) -> Vec<Line> {
         }
         let [c, s]: [Polynomial<Rational>; 2] = [cos, sin].map(Polynomial::variable);
         let one = Polynomial::one();
-        found.push(Line::new(
-            format!("cosine and sine: {name}^2 + s{rest}^2 = 1"),
-            c.mul(&c).add(&s.mul(&s)).sub(&one),
-        ));
+        found
+            .push(Line::new(format!("cosine and sine: {name}^2 + s{rest}^2 = 1"), c.mul(&c).add(&s.mul(&s)).sub(&one)));
         if let Some(tangent) = place(&format!("t{rest}")).filter(|tangent| occurs(*tangent)) {
             let t = Polynomial::variable(tangent);
             let circle = t.mul(&t).add(&one);
-            found.push(Line::new(format!("t{rest} is the tangent of half the angle: its cosine"), c.mul(&circle).add(&t.mul(&t)).sub(&one)));
-            found.push(Line::new(format!("t{rest} is the tangent of half the angle: its sine"), s.mul(&circle).sub(&t).sub(&t)));
+            found.push(Line::new(
+                format!("t{rest} is the tangent of half the angle: its cosine"),
+                c.mul(&circle).add(&t.mul(&t)).sub(&one),
+            ));
+            found.push(Line::new(
+                format!("t{rest} is the tangent of half the angle: its sine"),
+                s.mul(&circle).sub(&t).sub(&t),
+            ));
         }
     }
     found

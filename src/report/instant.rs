@@ -1,16 +1,16 @@
 //! The instantaneous motion of the bodies of a linkage: JSON and text.
 
 use super::calculus::write_values;
-use super::json::number;
 use super::dynamics::reactions;
+use super::json::number;
 use super::linkage;
 use crate::algebra::ring::Ring;
 use crate::catalogue::{LinkageCase, LinkageFile};
 use crate::displacement::answer::list;
 use crate::kinematics::linkage::Linkage;
 use crate::linkage::answer::{LinkageAnswer, LinkageMode};
-use crate::linkage::loads::{PlaneLoad, balance};
 use crate::linkage::instant::{Relative, against, derivatives, pole, relative};
+use crate::linkage::loads::{PlaneLoad, balance};
 use crate::linkage::rates::{Body, Moving, freedoms, joint_value, moving, pair, resting};
 use looproot_calculus::instant::plane::{Instant, curvature};
 use num_complex::Complex;

@@ -403,9 +403,10 @@ pub fn cognates_json(
 ) -> Value {
     let (body, point) = of.split_once('.').unwrap_or((of, ""));
     let mut document = curve_json(file, case, body, point, curve);
-    let list = titled(file, found).into_iter().zip(equal).map(|((title, own), is_equal)| {
-        json!({ "file": file_of(&title, own), "same_polynomial": is_equal })
-    });
+    let list = titled(file, found)
+        .into_iter()
+        .zip(equal)
+        .map(|((title, own), is_equal)| json!({ "file": file_of(&title, own), "same_polynomial": is_equal }));
     document["cognates"] = list.collect();
     document
 }
@@ -415,7 +416,11 @@ pub fn cognates_json(
 pub fn cognates_text(file: &LinkageFile, (of, curve): (&str, &Curve), found: &[Linkage], equal: &[bool]) -> String {
     let mut text = curve_text(file, of, curve);
     for ((title, own), is_equal) in titled(file, found).into_iter().zip(equal) {
-        let words = if *is_equal { "the curve of coupler.P has the same polynomial" } else { "polynomials differ: one is reducible" };
+        let words = if *is_equal {
+            "the curve of coupler.P has the same polynomial"
+        } else {
+            "polynomials differ: one is reducible"
+        };
         let _ = write!(text, "\n# {words}\n{}", file_of(&title, own));
     }
     text

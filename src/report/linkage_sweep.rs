@@ -8,10 +8,10 @@ use super::linkage::joint_variables;
 use super::model;
 use super::number::short;
 use super::picture::{COLOURS, Frame, escaped, graphs_svg};
+use super::table::Columns;
 use crate::catalogue::LinkageFile;
 use crate::kinematics::linkage::Gaussian;
 use crate::linkage::answer::LinkageMode;
-use super::table::Columns;
 use crate::sweep::{AssemblyBranch, End, LinkageSweep};
 use looproot_calculus::line::strip::{Strip, strip};
 use serde_json::{Map, Value, json};
@@ -85,7 +85,11 @@ fn straight(traced: &Traced, sweep: &LinkageSweep) -> String {
             short(y.atan2(x).to_degrees(), 6),
         ]);
     }
-    format!("\ncurve of {}: its extent along the nearest line, and how far it is off that line at most\n{}", traced.name, table.text())
+    format!(
+        "\ncurve of {}: its extent along the nearest line, and how far it is off that line at most\n{}",
+        traced.name,
+        table.text()
+    )
 }
 
 /// The values of a mode's joints, those that have one.

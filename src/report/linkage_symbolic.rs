@@ -1,6 +1,8 @@
 //! Relations of input and output of linkages with symbols, as text and as JSON.
 
-use super::linkage_derivation::{COORDINATES, circular, document, ends, heading, pair, rational, tangent, terms, written};
+use super::linkage_derivation::{
+    COORDINATES, circular, document, ends, heading, pair, rational, tangent, terms, written,
+};
 use super::number::counted;
 use super::table::paragraph;
 use crate::catalogue::LinkageFile;
@@ -24,7 +26,10 @@ fn cosines(file: &LinkageFile, found: &LinkageSymbolic) -> Option<String> {
 
 fn steps(found: &LinkageSymbolic) -> Vec<String> {
     let Some(compared) = found.compared else {
-        return vec!["The third moving link keeps its length: the squared distance of the ends of the two others is a constant.".to_owned()];
+        return vec![
+            "The third moving link keeps its length: the squared distance of the ends of the two others is a constant."
+                .to_owned(),
+        ];
     };
     vec![
         "The relation of input and output is derived at values of the symbols: a determinant by Cramer's rule on the cycles of bodies."
@@ -130,7 +135,9 @@ pub fn json(file: &LinkageFile, case: usize, found: &LinkageSymbolic) -> Value {
 pub fn curve_verdict(of: &str, found: &CurveSymbolic) -> String {
     let how = match (found.compared, found.agrees) {
         (None, true) => "derived with the symbols; the curve of the numbers of the file divides it there".to_owned(),
-        (None, false) => "derived with the symbols, and not compared at the numbers of the file, which are special".to_owned(),
+        (None, false) => {
+            "derived with the symbols, and not compared at the numbers of the file, which are special".to_owned()
+        }
         (Some(count), _) => format!(
             "equal to the curves derived at {count} other values, drawn at random (probability of error below 2^-40)"
         ),
@@ -156,7 +163,11 @@ fn curve_steps(found: &CurveSymbolic) -> Vec<String> {
 }
 
 fn curve_variables(file: &LinkageFile, found: &CurveSymbolic) -> Vec<String> {
-    COORDINATES.map(str::to_owned).into_iter().chain(found.symbols.iter().map(|one| one.variable(&file.linkage))).collect()
+    COORDINATES
+        .map(str::to_owned)
+        .into_iter()
+        .chain(found.symbols.iter().map(|one| one.variable(&file.linkage)))
+        .collect()
 }
 
 /// The curve for a reader.

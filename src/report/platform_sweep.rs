@@ -11,7 +11,8 @@ use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
 /// The numbers of a pose in their order, each with its unit.
-const VARIABLES: [(&str, &str); 7] = [("qw", ""), ("qx", ""), ("qy", ""), ("qz", ""), ("x", "m"), ("y", "m"), ("z", "m")];
+const VARIABLES: [(&str, &str); 7] =
+    [("qw", ""), ("qx", ""), ("qy", ""), ("qz", ""), ("x", "m"), ("y", "m"), ("z", "m")];
 
 /// Returns the name of the leg that runs.
 fn name(sweep: &PlatformSweep) -> String {

@@ -1,6 +1,6 @@
 //! The velocity ratio of a joint to the input along the branches of a sweep.
 
-use super::axodes::{input_of_loop, given_of_plane, given_of_sphere, rows};
+use super::axodes::{given_of_plane, given_of_sphere, input_of_loop, rows};
 use super::json::number;
 use super::number::short;
 use super::table::Columns;
@@ -88,7 +88,12 @@ impl Ratio {
     ///
     /// # Errors
     /// As [`InputCurve::of`].
-    pub fn of_loop(entry: &Entry, input: (usize, Variable), sweep: &Sweep, (index, name): (usize, &str)) -> Result<Self> {
+    pub fn of_loop(
+        entry: &Entry,
+        input: (usize, Variable),
+        sweep: &Sweep,
+        (index, name): (usize, &str),
+    ) -> Result<Self> {
         let curve = InputCurve::of(entry, &input_of_loop(input))?;
         let ratio = |q: &[f64]| {
             let found = (q.len() == curve.variables().len()).then(|| curve.derivatives_at(&curve.point(q)))??;
@@ -132,7 +137,8 @@ impl Ratio {
 
     /// Adds the ratio to every row of a document, and what is said of the branches.
     pub fn insert(&self, document: &mut Value) {
-        let values = self.branches.iter().flatten().map(|row| row.ratio.map_or(Value::Null, |[ratio, _]| number(ratio)));
+        let values =
+            self.branches.iter().flatten().map(|row| row.ratio.map_or(Value::Null, |[ratio, _]| number(ratio)));
         for (row, value) in rows(document).into_iter().zip(values) {
             row["ratio"] = value;
         }
@@ -154,7 +160,8 @@ impl Ratio {
     #[must_use]
     pub fn csv(&self, text: &str) -> String {
         let name = self.name.replace([',', '"', '\n'], " ");
-        let values = self.branches.iter().flatten().map(|row| row.ratio.map_or(String::new(), |[ratio, _]| ratio.to_string()));
+        let values =
+            self.branches.iter().flatten().map(|row| row.ratio.map_or(String::new(), |[ratio, _]| ratio.to_string()));
         let cells = std::iter::once(format!("ratio of {name}")).chain(values);
         text.lines().zip(cells).fold(String::new(), |all, (line, cell)| all + line + "," + &cell + "\n")
     }
@@ -175,7 +182,11 @@ impl Ratio {
             };
             table.row([(k + 1).to_string(), short(least[0], 9), one, short(greatest[0], 9), two]);
         }
-        format!("\nratio of {} to {input}, at the inputs of the sweep and where it is stationary between them\n{}", self.name, table.text())
+        format!(
+            "\nratio of {} to {input}, at the inputs of the sweep and where it is stationary between them\n{}",
+            self.name,
+            table.text()
+        )
     }
 }
 

@@ -6,8 +6,20 @@ use crate::benchmark::published::{Errors, MULTIPLE, Score, Tally};
 use serde_json::{Map, Value, json};
 
 const HEADER: [&str; 14] = [
-    "", "problems", "answered", "true", "found", "lost", "spurious", "double", "certified", "position", "99 %",
-    "rotation", "99 %", "median ms",
+    "",
+    "problems",
+    "answered",
+    "true",
+    "found",
+    "lost",
+    "spurious",
+    "double",
+    "certified",
+    "position",
+    "99 %",
+    "rotation",
+    "99 %",
+    "median ms",
 ];
 
 /// The tables by class and by decade of the condition number.
@@ -76,8 +88,20 @@ fn row(name: &str, tally: &Tally) -> [String; 14] {
     let [problems, answered, truths, found, lost, spurious, double, certified] = counts.map(|n| n.to_string());
     let time = if time.is_nan() { "-".to_owned() } else { format!("{:.3}", 1e3 * time) };
     [
-        name.to_owned(), problems, answered, truths, found, lost, spurious, double, certified, position, far, rotation,
-        wide, time,
+        name.to_owned(),
+        problems,
+        answered,
+        truths,
+        found,
+        lost,
+        spurious,
+        double,
+        certified,
+        position,
+        far,
+        rotation,
+        wide,
+        time,
     ]
 }
 
@@ -142,9 +166,8 @@ fn escaped(words: &str) -> String {
 #[must_use]
 pub fn figures(solver: &str, score: &Score) -> Vec<(&'static str, String)> {
     let of = |of: fn(&Errors) -> f64| errors(&score.all, of);
-    let figure = |name, what: &str, values: &[f64]| {
-        (name, super::histogram::svg(&format!("{solver}: {what}"), what, values))
-    };
+    let figure =
+        |name, what: &str, values: &[f64]| (name, super::histogram::svg(&format!("{solver}: {what}"), what, values));
     vec![
         figure("position", "error of position / size", &of(|e| e.position)),
         figure("rotation", "error of rotation [rad]", &of(|e| e.rotation)),

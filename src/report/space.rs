@@ -142,7 +142,8 @@ fn mode(file: &SpaceFile, id: usize, mode: &SpaceMode) -> Value {
 pub fn result(file: &SpaceFile, case: &SpaceCase, index: usize, answer: &SpaceAnswer, complex: bool) -> Value {
     let (linkage, verdict) = (&file.linkage, &answer.verdict);
     let groups = answer.groups.iter().map(|group| {
-        let names = |bodies: &Vec<usize>| bodies.iter().map(|body| linkage.bodies[*body].name.clone()).collect::<Vec<_>>();
+        let names =
+            |bodies: &Vec<usize>| bodies.iter().map(|body| linkage.bodies[*body].name.clone()).collect::<Vec<_>>();
         let bodies = group.bodies.iter().map(names).collect::<Vec<_>>();
         json!({ "bodies": bodies, "count": group.count, "route": group.route })
     });
@@ -206,7 +207,8 @@ pub fn text(file: &SpaceFile, case: &SpaceCase, index: usize, answer: &SpaceAnsw
         let (re, im) = (z.re * scale, z.im * scale);
         if real { short(re, 6) } else { format!("{} {im:+.6}i", short(re, 6)) }
     };
-    let shown = (1..).zip(&answer.modes).filter(|(_, mode)| complex || mode.real).map(|(k, mode)| (k.to_string(), mode));
+    let shown =
+        (1..).zip(&answer.modes).filter(|(_, mode)| complex || mode.real).map(|(k, mode)| (k.to_string(), mode));
     let listed = shown.chain(answer.sample.iter().map(|(sample, _)| ("family".to_owned(), sample)));
     let mut rows = 0;
     for (name, mode) in listed {

@@ -3,12 +3,12 @@
 use super::calculus::write_values;
 use super::json::number;
 use super::{json, space, sphere};
+use crate::algebra::number::nearest_f64;
+use crate::algebra::series::Series;
 use crate::catalogue::entry::{Case, Entry};
 use crate::catalogue::{SpaceCase, SpaceFile, SphereCase, SphereFile};
 use crate::displacement::answer::list;
-use crate::algebra::number::nearest_f64;
 use crate::kinematics::motion::{Vector, cross, dot};
-use crate::algebra::series::Series;
 use crate::linkage::loads::{Load, SpaceLoad};
 use crate::linkage::space::{SpaceAnswer, rates as rates_in_space};
 use crate::linkage::sphere::{SphereAnswer, rates};
@@ -30,12 +30,18 @@ pub struct Asked<'a> {
 
 impl Asked<'_> {
     /// Adds what is requested to a mode; `motion` writes the motion of the body.
-    fn insert(&self, shown: &mut Value, bodies: Option<&[Moving]>, motion: impl FnOnce(Pair, Option<&str>) -> Option<Map<String, Value>>) {
+    fn insert(
+        &self,
+        shown: &mut Value,
+        bodies: Option<&[Moving]>,
+        motion: impl FnOnce(Pair, Option<&str>) -> Option<Map<String, Value>>,
+    ) {
         if let Some((pair, point)) = self.body {
             shown["instant"] = motion(pair, point).map_or(Value::Null, Value::Object);
         }
         if let Some(loads) = self.loads {
-            shown["balance"] = bodies.map_or(Value::Null, |bodies| json!({ "holding": number(holding(loads, bodies)) }));
+            shown["balance"] =
+                bodies.map_or(Value::Null, |bodies| json!({ "holding": number(holding(loads, bodies)) }));
         }
     }
 }
@@ -93,9 +99,10 @@ pub fn values([body, against]: [&str; 2], state: &State<f64>, all: &[Moving]) ->
     let axodes = state.axodes();
     put(
         "axodes",
-        axodes.map_or(Value::Null, |found| {
-            json!({ "striction": list(&found.striction), "distribution": number(found.distribution) })
-        }),
+        axodes.map_or(
+            Value::Null,
+            |found| json!({ "striction": list(&found.striction), "distribution": number(found.distribution) }),
+        ),
     );
     object
 }

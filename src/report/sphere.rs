@@ -31,7 +31,9 @@ fn asked(file: &SphereFile, given: &[SphereGiven]) -> String {
     let one = |given: &SphereGiven| {
         let q = quaternion(given).map(|part| short(part, 6)).join(", ");
         match given.joint {
-            Some(joint) => format!("{} = {} deg", linkage.joints[joint].name, short(angle(file, given).to_degrees(), 6)),
+            Some(joint) => {
+                format!("{} = {} deg", linkage.joints[joint].name, short(angle(file, given).to_degrees(), 6))
+            }
             None => format!("{} turned by ({q})", linkage.bodies[given.of[1]].name),
         }
     };
@@ -184,9 +186,11 @@ const CHART: [&str; 2] = ["u", "v"];
 const TANGENTS: [&str; 2] = ["t", "s"];
 
 /// The sentence on the derivation of the polynomial of a curve.
-const CURVE: &str = "three equations are linear in the end of the crank; by Cramer's rule its length is the equation of the curve";
+const CURVE: &str =
+    "three equations are linear in the end of the crank; by Cramer's rule its length is the equation of the curve";
 /// The sentence on the derivation of a transfer function.
-const TRANSFER: &str = "the ends of crank and rocker include the angle of the coupler; what lies between two four-bars is eliminated";
+const TRANSFER: &str =
+    "the ends of crank and rocker include the angle of the coupler; what lies between two four-bars is eliminated";
 
 /// Returns a document with the keys that every document of a linkage has; `case` is counted from 1.
 #[must_use]
@@ -291,7 +295,10 @@ pub fn curve_text(file: &SphereFile, of: &str, curve: &SphereCurve) -> String {
     }
     for normal in &curve.mirrors {
         let normal = normal.each_ref().map(ToString::to_string).join(", ");
-        paragraph(&mut text, &format!("symmetric: the curve is its own mirror image in the plane with the normal ({normal})"));
+        paragraph(
+            &mut text,
+            &format!("symmetric: the curve is its own mirror image in the plane with the normal ({normal})"),
+        );
     }
     if let Some(plane) = &curve.stereographic {
         let degree = plane.total_degree().unwrap_or(0);
@@ -323,7 +330,10 @@ pub fn transfer_verdict(file: &SphereFile, found: &Transfer) -> String {
 pub fn transfer_json(file: &SphereFile, case: usize, found: &Transfer) -> Value {
     let mut document = document(file, case, &transfer_verdict(file, found), TRANSFER);
     let names = |bodies: &[usize; 4]| bodies.map(|body| file.linkage.bodies[body].name.clone());
-    let factors = found.constant_ratio.iter().map(|(factor, what)| json!({ "factor": written(factor, &TANGENTS), "means": what }));
+    let factors = found
+        .constant_ratio
+        .iter()
+        .map(|(factor, what)| json!({ "factor": written(factor, &TANGENTS), "means": what }));
     document["transfer"] = json!({
         "input": file.linkage.joints[found.input].name,
         "output": file.linkage.joints[found.output].name,
@@ -416,7 +426,10 @@ pub fn symbolic_json(file: &SphereFile, case: usize, found: &SphereSymbolic) -> 
     let bodies = |bodies: &[usize; 4]| bodies.map(|body| file.linkage.bodies[body].name.clone());
     let names = symbolic_names(found);
     let shown: Vec<&str> = names.iter().map(String::as_str).collect();
-    let ends = found.ends.iter().map(|end| json!({ "joint": name(end.joint), "sign": end.sign, "offset": number(end.offset) }));
+    let ends = found
+        .ends
+        .iter()
+        .map(|end| json!({ "joint": name(end.joint), "sign": end.sign, "offset": number(end.offset) }));
     let symbols = found.symbols.iter().map(|one| {
         json!({ "cosine": format!("c_{}", one.name), "sine": format!("s_{}", one.name), "means": one.meaning, "value": number(one.value) })
     });

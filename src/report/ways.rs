@@ -44,7 +44,11 @@ fn divided(by: &ByWay) -> Vec<String> {
 pub fn text(by: &ByWay) -> String {
     let matrix = &by.matrix;
     let mut text = verdict(by) + "\n";
-    let _ = writeln!(text, "\nMatrix: {} x {}, entries of degree {}: {}", matrix.rows, matrix.columns, matrix.entries, matrix.meaning);
+    let _ = writeln!(
+        text,
+        "\nMatrix: {} x {}, entries of degree {}: {}",
+        matrix.rows, matrix.columns, matrix.entries, matrix.meaning
+    );
     if !by.divided.is_empty() {
         text.push_str("Divided out of the eliminant\n");
     }

@@ -122,9 +122,7 @@ fn different(points: &[Point], size: f64) -> Vec<Point> {
 fn outline(points: &[Point], size: f64) -> Vec<Point> {
     let mut sorted = different(points, size);
     sort::by(&mut sorted, |a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    let side = |a: &Point, b: &Point, c: &Point| {
-        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-    };
+    let side = |a: &Point, b: &Point, c: &Point| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     let half = |points: &mut dyn Iterator<Item = &Point>| {
         let mut chain: Vec<Point> = Vec::new();
         for point in points {
@@ -214,9 +212,8 @@ fn parts(outline_of: &Outline, is_ground: bool, on_sphere: bool, size: f64) -> V
 pub(super) fn scene(figure: &Figure) -> Option<(Scene, Poser)> {
     let poser = TreePoser::of(figure)?;
     let place = |body: usize| poser.order.iter().position(|own| *own == body);
-    let extent = |points: &[Point]| {
-        points.iter().flat_map(|a| points.iter().map(move |b| distance(a, b))).fold(0.0, f64::max)
-    };
+    let extent =
+        |points: &[Point]| points.iter().flat_map(|a| points.iter().map(move |b| distance(a, b))).fold(0.0, f64::max);
     let largest = figure.bodies.iter().map(|body| extent(&body.points)).fold(0.0, f64::max);
     let size = if figure.on_sphere || largest == 0.0 { 1.0 } else { largest };
     let mut bodies: Vec<Body> = Vec::new();
@@ -253,13 +250,17 @@ pub(super) fn scene(figure: &Figure) -> Option<(Scene, Poser)> {
             }
         }
     }
-    let traces = figure.traces.iter().filter_map(|(name, body, at)| {
-        Some(Trace { name: name.clone(), body: place(*body)?, at: *at })
-    });
+    let traces = figure
+        .traces
+        .iter()
+        .filter_map(|(name, body, at)| Some(Trace { name: name.clone(), body: place(*body)?, at: *at }));
     let ground = &figure.bodies[figure.ground].points;
     let count = ground.len().max(1) as f64;
-    let centre =
-        if figure.on_sphere { [0.0; 3] } else { std::array::from_fn(|k| ground.iter().map(|p| p[k]).sum::<f64>() / count) };
+    let centre = if figure.on_sphere {
+        [0.0; 3]
+    } else {
+        std::array::from_fn(|k| ground.iter().map(|p| p[k]).sum::<f64>() / count)
+    };
     let traces = traces.collect();
     let scene = Scene { bodies, connections, centre, size, traces, is_flat: !figure.on_sphere };
     Some((scene, Poser::Tree(poser)))

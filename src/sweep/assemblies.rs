@@ -282,7 +282,8 @@ pub(super) fn follow<R: Running>(
     let web = Web { run, nodes, links, range };
     let (branches, limits) = web.branches(ends);
     let verdict = SweepVerdict::none();
-    let mut sweep = AssemblySweep { joint, range, samples, branches, limits, complex_limits: None, is_full_turn, verdict };
+    let mut sweep =
+        AssemblySweep { joint, range, samples, branches, limits, complex_limits: None, is_full_turn, verdict };
     sweep.verdict = SweepVerdict::of_assemblies(&sweep, unproved, run.because());
     Ok(sweep)
 }

@@ -101,7 +101,12 @@ impl Running for Run<'_> {
         mode
     }
 
-    fn proved(&self, range: Range, is_full_turn: bool, samples: &[AssemblySample<LinkageMode>]) -> Result<Proved<LinkageMode>> {
+    fn proved(
+        &self,
+        range: Range,
+        is_full_turn: bool,
+        samples: &[AssemblySample<LinkageMode>],
+    ) -> Result<Proved<LinkageMode>> {
         match &self.proof {
             Some(proof) => links(&**proof, range, is_full_turn, samples, |input| self.sample(input, &mut ())),
             None => Ok(Err(Code::NoExactRoute)),
@@ -198,7 +203,9 @@ mod tests {
     fn proofs_of_a_sweep_agree() {
         let mut compared = [0, 0];
         for name in ["four_bar_coupler", "watt_1", "watt_2", "stephenson_1", "stephenson_3", "stephenson_2", "3rrr"] {
-            let Any::Linkage(file) = builtin_any(&format!("linkage/{name}"), &Options::default()).unwrap() else { panic!("{name}") };
+            let Any::Linkage(file) = builtin_any(&format!("linkage/{name}"), &Options::default()).unwrap() else {
+                panic!("{name}")
+            };
             let (given, _) = file.given(&file.cases[0]);
             let joint = given[0].joint().unwrap();
             let linkage = &file.linkage;

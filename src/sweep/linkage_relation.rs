@@ -7,7 +7,8 @@ use super::linking::Linking;
 use super::track::Fold;
 use crate::algebra::drawn;
 use crate::derivation::{
-    GroupPolynomial, InputOutput, LinkageDerivation, Watch, derive_linkage, derive_linkage_with_symbols, relation_by_values,
+    GroupPolynomial, InputOutput, LinkageDerivation, Watch, derive_linkage, derive_linkage_with_symbols,
+    relation_by_values,
 };
 use crate::error::{Error, Result};
 use crate::kinematics::closed_loop::Variable;
@@ -64,8 +65,9 @@ impl LinkageRelation {
     pub fn of(linkage: &Linkage, given: &[Given], coordinate: Option<&str>) -> Result<Self> {
         let derivation = derive_linkage(linkage, given)?;
         let best = whole(&derivation)?;
-        let none =
-            || Error::Unsupported("the closure polynomial of the linkage vanishes for all values of an unknown".to_owned());
+        let none = || {
+            Error::Unsupported("the closure polynomial of the linkage vanishes for all values of an unknown".to_owned())
+        };
         let (polynomial, kind, agrees) = match (coordinate, &derivation.input_output) {
             (Some(name), _) => {
                 let found = derive_linkage_with_symbols(linkage, given, &[name.to_owned()], &Watch::none())?;
@@ -153,7 +155,8 @@ impl BodyRelations {
         let derive = |number: usize| {
             let relation = self.derivation.relation_to(&self.linkage, &self.given, number)?;
             let own = self.derivation.polynomials.get(number)?;
-            LinkageRelation::of_relation(&self.linkage, &self.derivation, own, &relation).filter(|relation| relation.proof == Proof::Proved)
+            LinkageRelation::of_relation(&self.linkage, &self.derivation, own, &relation)
+                .filter(|relation| relation.proof == Proof::Proved)
         };
         self.others.iter().filter_map(move |(number, known)| known.get_or_init(|| derive(*number)).as_ref())
     }

@@ -76,7 +76,12 @@ pub(super) fn links<M: Clone + Send + Sync>(
 }
 
 /// Returns the inputs to look at, with the steps whose samples they are, in the order of the sweep.
-fn inputs<M>(proof: &dyn Linking<M>, range: Range, is_full_turn: bool, samples: &[AssemblySample<M>]) -> Option<Vec<(f64, Option<usize>)>> {
+fn inputs<M>(
+    proof: &dyn Linking<M>,
+    range: Range,
+    is_full_turn: bool,
+    samples: &[AssemblySample<M>],
+) -> Option<Vec<(f64, Option<usize>)>> {
     let is_turn = proof.variable() == Variable::Rotation;
     let all = range.turned(&proof.criticals(), proof.variable());
     let span = (range.to - range.from).abs();

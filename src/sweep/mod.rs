@@ -23,13 +23,13 @@ mod sphere;
 mod track;
 mod verdict;
 
+pub use assemblies::{AssemblyBranch, AssemblyLimit, AssemblyRow, AssemblySample, AssemblySweep};
 pub use branch::{Branch, End, Limit, Row};
 pub use cells::{
-    Cell, CellMap, Cells, CellsVerdict, Column, EntryCase, Label, LinkageCase, MapWanted, Parameter, SpaceCase, SphereCase, Subject,
-    Zero, cell_map, cells,
+    Cell, CellMap, Cells, CellsVerdict, Column, EntryCase, Label, LinkageCase, MapWanted, Parameter, SpaceCase,
+    SphereCase, Subject, Zero, cell_map, cells,
 };
 pub use derivation::derive_any;
-pub use assemblies::{AssemblyBranch, AssemblyLimit, AssemblyRow, AssemblySample, AssemblySweep};
 pub use linkage::{LinkageSweep, count_limits, sweep_linkage};
 pub use platform::{PlatformSweep, sweep_platform};
 pub use sample::{Sample, case};

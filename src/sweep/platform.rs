@@ -1,7 +1,7 @@
 //! All poses of a platform while one of its legs changes its length.
 
-use super::{End, Range};
 use super::assemblies::{AssemblySample, AssemblySweep, Running, follow, is_listed};
+use super::{End, Range};
 use crate::algebra::number::Number;
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::entry::{Case, Design, Entry};
@@ -116,7 +116,8 @@ fn align(sweep: &mut PlatformSweep) {
             rows.reverse();
             ends.reverse();
         }
-        let mut last: Option<Vec<f64>> = ends[0].filter(|limit| known[*limit]).map(|limit| place(&sweep.limits[limit].mode));
+        let mut last: Option<Vec<f64>> =
+            ends[0].filter(|limit| known[*limit]).map(|limit| place(&sweep.limits[limit].mode));
         let mut turn = |mode: &mut FullMode| {
             let own = place(mode);
             let own = last.as_ref().map_or(own.clone(), |last| aligned(last, own));

@@ -88,7 +88,12 @@ impl Running for Run<'_> {
         self.proof.as_ref().map_or("", Linking::because)
     }
 
-    fn proved(&self, range: Range, is_full_turn: bool, samples: &[AssemblySample<SphereMode>]) -> Result<Proved<SphereMode>> {
+    fn proved(
+        &self,
+        range: Range,
+        is_full_turn: bool,
+        samples: &[AssemblySample<SphereMode>],
+    ) -> Result<Proved<SphereMode>> {
         match &self.proof {
             Some(proof) => links(proof, range, is_full_turn, samples, |input| self.sample(input, &mut ())),
             None => Ok(Err(Code::NoExactRoute)),

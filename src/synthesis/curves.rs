@@ -59,7 +59,8 @@ impl Curve {
     /// The exact value at a point.
     #[cfg(test)]
     pub(super) fn exact(&self, x: &Rational, y: &Rational) -> Rational {
-        let power = |base: &Rational, exponent: usize| (0..exponent).fold(Rational::from(1), |product, _| product * base);
+        let power =
+            |base: &Rational, exponent: usize| (0..exponent).fold(Rational::from(1), |product, _| product * base);
         self.terms.iter().map(|([i, j], c)| power(x, *i) * power(y, *j) * c).sum()
     }
 

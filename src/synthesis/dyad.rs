@@ -151,19 +151,18 @@ pub(super) fn dyad(wanted: &Wanted, place: &Place<Disc>, is_real: bool) -> Optio
 
 /// Lists two lines, and the angle and the distance between them in the first position.
 fn two_lines(making: &mut Making, wanted: &Wanted, fixed: &Line<Disc>, moving: &Line<Disc>) -> Option<()> {
-        for (line, names) in
-            [(fixed, ["fixed.direction", "fixed.moment"]), (moving, ["moving.direction", "moving.moment"])]
-        {
-            making.list(names[0], &line.direction);
-            making.list(names[1], &line.moment);
-        }
-        let start = moving.moved(&wanted.first());
-        let angle = angle(&fixed.direction, &start.direction)?;
-        let normal = cross(&fixed.direction, &start.direction);
-        making.scalar("angle", &angle);
-        // The dual part of cos(angle + e distance) is the reciprocal product: -distance sin(angle).
-        let sine = dot(&normal, &normal).sqrt()?;
-        making.scalar("distance", &fixed.reciprocal(&start).neg().mul(&sine.inverse()?));
+    for (line, names) in [(fixed, ["fixed.direction", "fixed.moment"]), (moving, ["moving.direction", "moving.moment"])]
+    {
+        making.list(names[0], &line.direction);
+        making.list(names[1], &line.moment);
+    }
+    let start = moving.moved(&wanted.first());
+    let angle = angle(&fixed.direction, &start.direction)?;
+    let normal = cross(&fixed.direction, &start.direction);
+    making.scalar("angle", &angle);
+    // The dual part of cos(angle + e distance) is the reciprocal product: -distance sin(angle).
+    let sine = dot(&normal, &normal).sqrt()?;
+    making.scalar("distance", &fixed.reciprocal(&start).neg().mul(&sine.inverse()?));
     Some(())
 }
 

@@ -21,7 +21,10 @@ pub(super) fn synthesize(file: &SynthesisFile, pairs: &[AnglePair]) -> Answer {
         kind: DyadKind::RR,
         space: Space::Plane,
         trivial: 1,
-        positions: pairs.iter().map(|AnglePair { angles: [input, output], .. }| seen_from_crank(input, output)).collect(),
+        positions: pairs
+            .iter()
+            .map(|AnglePair { angles: [input, output], .. }| seen_from_crank(input, output))
+            .collect(),
         rates: pairs.iter().filter_map(leaving).collect(),
     };
     let equations = |place: &super::cells::Place<_>| wanted.equations(place);

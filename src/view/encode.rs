@@ -94,7 +94,8 @@ mod tests {
     fn files_are_texts_of_seven_bits_a_byte() {
         let all: Vec<u8> = (0..=255).chain([0, 0, 10, 13, 60, 255, 7]).collect();
         // All lengths, so that every group is once the last one; zeros alone, of which every group is unsafe.
-        for bytes in (0..all.len()).map(|length| &all[..length]).chain([&all[..], &[0; 7], &[0; 8], &[0; 14], &[0; 15]]) {
+        for bytes in (0..all.len()).map(|length| &all[..length]).chain([&all[..], &[0; 7], &[0; 8], &[0; 14], &[0; 15]])
+        {
             let text = packed(bytes);
             assert!(!text.contains(['\0', '\n', '\r', '<']));
             assert!(text.len() <= (8 * bytes.len()).div_ceil(7) + 1, "{} bytes of {}", text.len(), bytes.len());

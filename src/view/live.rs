@@ -164,7 +164,8 @@ mod tests {
         // Rz(90 deg) after Rx(30 deg).
         let (sin, cos) = 30_f64.to_radians().sin_cos();
         let matrix = [[0.0, -cos, sin, 0.1], [1.0, 0.0, 0.0, 0.2], [0.0, sin, cos, 0.3], [0.0, 0.0, 0.0, 1.0]];
-        let document = json!({ "kind": "arm", "scene": { "size": 2.0 }, "results": [{ "asked": { "matrix": matrix } }] });
+        let document =
+            json!({ "kind": "arm", "scene": { "size": 2.0 }, "results": [{ "asked": { "matrix": matrix } }] });
         let found = controls(&document).expect("a pose");
         assert_eq!(found["argument"], "--at={0} m, {1} m, {2} m; {3} deg, {4} deg, {5} deg");
         let values: Vec<f64> = list(&found, "controls").iter().filter_map(|one| one["value"].as_f64()).collect();

@@ -74,7 +74,10 @@ fn linkage(document: &Value) -> Option<Figure> {
             if on_sphere {
                 spherical_frame(&three(at, real)?, &three(&joint["zero"][side], real)?)
             } else {
-                Some(planar_frame(pair(at)?, if joint["along"].is_null() { None } else { Some(pair(&joint["along"][side])?) }))
+                Some(planar_frame(
+                    pair(at)?,
+                    if joint["along"].is_null() { None } else { Some(pair(&joint["along"][side])?) },
+                ))
             }
         };
         for side in 0..2 {
@@ -90,7 +93,8 @@ fn linkage(document: &Value) -> Option<Figure> {
     };
     // The point that a sweep followed, or those of the file.
     let asked = document["branches"][0]["rows"][0]["points"].as_object();
-    let asked: Vec<Value> = asked.map_or(Vec::new(), |points| points.keys().map(|name| Value::from(name.as_str())).collect());
+    let asked: Vec<Value> =
+        asked.map_or(Vec::new(), |points| points.keys().map(|name| Value::from(name.as_str())).collect());
     let named = mechanism["traces"].as_array().map_or(&[][..], Vec::as_slice);
     let traces = if asked.is_empty() { named } else { &asked }.iter().filter_map(trace).collect();
     Some(Figure { bodies, joints, ground: body(mechanism["ground"].as_str()?)?, on_sphere, traces })

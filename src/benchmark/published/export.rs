@@ -98,22 +98,16 @@ fn answered(class: &str, id: String, entry: &Entry) -> Result<Drawn> {
 /// Returns the real solutions without the given joint variable.
 fn truths(solution: &Solution, given: Option<usize>) -> Vec<Truth> {
     let real = solution.modes.iter().filter(|mode| mode.real && !mode.near);
-    let unknowns = |q: &[Complex<f64>]| {
-        q.iter().enumerate().filter(|(k, _)| Some(*k) != given).map(|(_, x)| x.re).collect()
-    };
-    let truth = real.map(|mode| Truth {
-        q: unknowns(&mode.q),
-        multiplicity: mode.multiplicity,
-        condition: mode.condition,
-    });
+    let unknowns =
+        |q: &[Complex<f64>]| q.iter().enumerate().filter(|(k, _)| Some(*k) != given).map(|(_, x)| x.re).collect();
+    let truth =
+        real.map(|mode| Truth { q: unknowns(&mode.q), multiplicity: mode.multiplicity, condition: mode.condition });
     truth.collect()
 }
 
 fn platform(entry: &Entry, case: &Case) -> Option<(Body, Option<usize>)> {
     let Design::Platform(platform) = &entry.design else { return None };
-    let floats = |points: &[[Number; 3]; 6]| {
-        points.each_ref().map(|point| point.each_ref().map(Number::to_f64))
-    };
+    let floats = |points: &[[Number; 3]; 6]| points.each_ref().map(|point| point.each_ref().map(Number::to_f64));
     let legs = case.legs_squared.as_ref()?.each_ref().map(|square| square.to_f64().sqrt());
     Some((Body::Platform { base: floats(&platform.base), plate: floats(&platform.plate), legs }, None))
 }

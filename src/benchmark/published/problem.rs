@@ -150,7 +150,8 @@ fn several<const N: usize>(line: usize, value: &Value, what: &str) -> Result<[f6
 }
 
 fn rows<const N: usize, const M: usize>(line: usize, value: &Value, what: &str) -> Result<[[f64; N]; M]> {
-    let list = value.as_array().into_iter().flatten().map(|row| several(line, row, what)).collect::<Result<Vec<_>>>()?;
+    let list =
+        value.as_array().into_iter().flatten().map(|row| several(line, row, what)).collect::<Result<Vec<_>>>()?;
     list.try_into().map_err(|_| wrong(line, &format!("`{what}`"), &format!("{M} rows")))
 }
 

@@ -282,8 +282,7 @@ impl Axis {
             std::array::from_fn(|i| cos * v[i] + sin * across[i] + along * u[i])
         };
         let columns: [[f64; 3]; 3] = std::array::from_fn(|j| turned(std::array::from_fn(|i| behind.rotation[i][j])));
-        let from_point: [f64; 3] =
-            turned(std::array::from_fn(|i| behind.translation[i] - self.point[i]));
+        let from_point: [f64; 3] = turned(std::array::from_fn(|i| behind.translation[i] - self.point[i]));
         Motion {
             rotation: std::array::from_fn(|i| std::array::from_fn(|j| columns[j][i])),
             translation: std::array::from_fn(|i| from_point[i] + self.point[i]),

@@ -506,7 +506,8 @@ impl InputNumber {
             Self::Finite(value) => Some(rational.substitute(0, &Polynomial::constant(value.clone()))),
             Self::Infinite => {
                 let degree = rational.degree(0);
-                let leading = rational.terms().filter(|(exponents, _)| exponents.first().copied().unwrap_or(0) == degree);
+                let leading =
+                    rational.terms().filter(|(exponents, _)| exponents.first().copied().unwrap_or(0) == degree);
                 Some(Polynomial::from_terms(leading.map(|(exponents, c)| {
                     let rest = exponents.iter().enumerate().map(|(k, e)| if k == 0 { 0 } else { *e });
                     (rest.collect(), c.clone())

@@ -54,7 +54,8 @@ mod tests {
         let [t, u] = [0, 1].map(Polynomial::<Int>::variable);
         let number = |n: i64| Polynomial::constant(Int::from(n));
         let squares = t.mul(&t).mul(&u).mul(&u);
-        let relation = number(15).mul(&squares).add(&number(6).mul(&t).mul(&u)).add(&number(16).mul(&u).mul(&u)).add(&number(7));
+        let relation =
+            number(15).mul(&squares).add(&number(6).mul(&t).mul(&u)).add(&number(16).mul(&u).mul(&u)).add(&number(7));
         let found = in_cosines(&relation, true).unwrap();
         let names = Names::given(["c0", "s0", "c2", "s2"]).unwrap();
         let rational = found.map(|c| Some(Rational::from(c.to_integer()))).unwrap();

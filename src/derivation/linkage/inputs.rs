@@ -49,5 +49,7 @@ pub fn relation_by_values(
 }
 
 fn half_turn() -> Error {
-    Error::Unsupported("a body makes half a turn at all values of the input: no closure polynomial in it is known".to_owned())
+    Error::Unsupported(
+        "a body makes half a turn at all values of the input: no closure polynomial in it is known".to_owned(),
+    )
 }

@@ -210,7 +210,12 @@ pub(super) fn chosen(
 }
 
 /// Returns the relation by interpolation.
-fn interpolated(linkage: &Linkage, relation: &Relation, symbols: &[Coordinate], watch: &Watch<'_>) -> Result<Polynomial<Int>> {
+fn interpolated(
+    linkage: &Linkage,
+    relation: &Relation,
+    symbols: &[Coordinate],
+    watch: &Watch<'_>,
+) -> Result<Polynomial<Int>> {
     let mut source = Relations { linkage, relation, symbols, degrees: [0, 0] };
     let first = source.at(&Values::Scattered.start(symbols.len())).ok_or_else(none)?;
     source.degrees = [0, 1].map(|k| first.degree(k) as usize);

@@ -113,7 +113,12 @@ pub(super) fn held<'g>(linkage: &Linkage, given: &'g [Given]) -> Result<&'g [Giv
 }
 
 /// Returns the cycles of a group and one more, for a weighted mean of points of bodies.
-fn mean(closure: &Closure, state: &State, base: usize, parts: &[(usize, Gaussian, Rational)]) -> Option<Equations<Number>> {
+fn mean(
+    closure: &Closure,
+    state: &State,
+    base: usize,
+    parts: &[(usize, Gaussian, Rational)],
+) -> Option<Equations<Number>> {
     let mut sum: Option<Equations<Number>> = None;
     for (body, point, share) in parts {
         let mut own = closure.traced(state, base, *body, &number(point))?;

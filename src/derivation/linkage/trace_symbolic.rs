@@ -189,16 +189,17 @@ fn interpolated(mut source: Curves<'_>, watch: &Watch<'_>) -> Result<Polynomial<
         );
         return Err(Error::Unsupported(message));
     }
-    let none = || Error::Unsupported("the point has no curve where the symbols are integers of eight digits".to_owned());
+    let none =
+        || Error::Unsupported("the point has no curve where the symbols are integers of eight digits".to_owned());
     let first = source.at(&Values::Scattered.start(symbols.len())).ok_or_else(none)?;
     source.degree = u32::try_from(first.total_degree().unwrap_or(0)).map_err(|_| none())?;
     let powers: Vec<[u32; 2]> = source.powers().collect();
     let names = symbols.iter().map(|one| one.name(source.linkage)).collect();
     let family = Family::new(&source, watch, Values::Scattered, names, powers.len());
     let terms = family.interpolated()?;
-    let terms = terms.terms().map(|(place, others, c)| {
-        (powers[place].into_iter().chain(others).collect::<Vec<u32>>(), c.clone())
-    });
+    let terms = terms
+        .terms()
+        .map(|(place, others, c)| (powers[place].into_iter().chain(others).collect::<Vec<u32>>(), c.clone()));
     let found = primitive(&Polynomial::from_terms(terms));
     family.compare(&found, 2, |coefficients| {
         let terms = coefficients.iter().zip(&powers).filter(|(c, _)| !c.is_zero());
@@ -246,6 +247,7 @@ pub fn trace_with_symbols(
     let rational = polynomial.map(|c| Some(Rational::from(c.to_integer())));
     let at_file = rational.map(|rational| rational.substitute_all(&of_file.collect::<Vec<_>>()));
     // Of numbers so special that it vanishes nothing is compared.
-    let agrees = at_file.is_some_and(|own| !own.is_zero() && integers(&own).checked_div_exact(&curve.polynomial).is_some());
+    let agrees =
+        at_file.is_some_and(|own| !own.is_zero() && integers(&own).checked_div_exact(&curve.polynomial).is_some());
     Ok(CurveSymbolic { symbols, numbers, polynomial, compared, agrees })
 }

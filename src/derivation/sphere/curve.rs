@@ -113,7 +113,9 @@ impl Numbers {
         let normal = cross(b, point);
         let square = dot(&normal, &normal);
         if square == 0 {
-            return Err(Error::Invalid("found a point on the axis of crank and coupler, whose curve is a circle; expected another".to_owned()));
+            return Err(Error::Invalid(
+                "found a point on the axis of crank and coupler, whose curve is a circle; expected another".to_owned(),
+            ));
         }
         let part = |v: &Direction| Rational::from(&dot(c, v) / &square);
         let kept = [
@@ -137,7 +139,11 @@ impl Numbers {
         let (a, d): (Vector<R>, Vector<R>) = (vector(&self.a), vector(&self.d));
         let row = sum(&times(&d, &self.alpha), &times(&cross(p, &d), &self.gamma));
         let beta: R = number(&self.beta);
-        let right = [number(&self.kept[0]), number(&dot(&self.b, &self.p)), number::<R>(&self.kept[1]).sub(&beta.mul(&dot(&d, p)))];
+        let right = [
+            number(&self.kept[0]),
+            number(&dot(&self.b, &self.p)),
+            number::<R>(&self.kept[1]).sub(&beta.mul(&dot(&d, p))),
+        ];
         Linear { rows: [a, p.clone(), row], right }
     }
 
@@ -176,7 +182,8 @@ pub fn sphere_trace(linkage: &SphereLinkage, body: usize, point: &Direction) -> 
     }
     let polynomial = reduced.square_free_part();
     let locus = on_sphere(&denominator.primitive().0, &square);
-    let normal = [cross(&numbers.a, &numbers.d), std::array::from_fn(|k| Rational::from(&numbers.a[k] - &numbers.d[k]))];
+    let normal =
+        [cross(&numbers.a, &numbers.d), std::array::from_fn(|k| Rational::from(&numbers.a[k] - &numbers.d[k]))];
     let lengths = [dot(&numbers.a, &numbers.a), dot(&numbers.d, &numbers.d)];
     let mirrors = normal.into_iter().enumerate().filter(|(k, n)| {
         (*k == 0 || lengths[0] == lengths[1]) && n.iter().any(|c| *c != 0) && is_mirror(&polynomial, n, &square)

@@ -53,7 +53,9 @@ impl FourBar {
         let pair = sides.iter().flat_map(|a| sides.iter().map(move |b| (a, b))).find(|(a, b)| a.0 < b.0 && a.1 != b.1);
         let name = &linkage.bodies[coupler].name;
         let (a, b) = pair.ok_or_else(|| {
-            Error::Unsupported(format!("the curve of a point of {name}, which is no coupler of a four-bar on the sphere"))
+            Error::Unsupported(format!(
+                "the curve of a point of {name}, which is no coupler of a four-bar on the sphere"
+            ))
         })?;
         Ok(Self { joints: [a.2, a.0, b.0, b.2], bodies: [linkage.ground, a.1, coupler, b.1] })
     }
@@ -81,7 +83,11 @@ fn series(linkage: &SphereLinkage, input: usize) -> Result<Vec<FourBar>> {
     let mut crank = match (a == linkage.ground, b == linkage.ground) {
         (true, _) => b,
         (_, true) => a,
-        _ => return Err(Error::Unsupported(format!("a transfer function from the joint {name}, which is not at the ground"))),
+        _ => {
+            return Err(Error::Unsupported(format!(
+                "a transfer function from the joint {name}, which is not at the ground"
+            )));
+        }
     };
     let (mut joint, mut before, mut list) = (input, Vec::new(), Vec::new());
     while let Some(four) = FourBar::of_crank(linkage, joint, crank, &before) {
@@ -90,11 +96,15 @@ fn series(linkage: &SphereLinkage, input: usize) -> Result<Vec<FourBar>> {
         list.push(four);
     }
     if list.is_empty() {
-        return Err(Error::Unsupported(format!("a transfer function from the joint {name}, whose crank drives no four-bar")));
+        return Err(Error::Unsupported(format!(
+            "a transfer function from the joint {name}, whose crank drives no four-bar"
+        )));
     }
     // What lies between two four-bars is eliminated from two quadratic equations.
     if list.len() > 2 {
-        return Err(Error::Unsupported(format!("a transfer function from the joint {name} through more than two four-bars")));
+        return Err(Error::Unsupported(format!(
+            "a transfer function from the joint {name} through more than two four-bars"
+        )));
     }
     Ok(list)
 }

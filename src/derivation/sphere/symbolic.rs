@@ -151,7 +151,9 @@ fn step(linkage: &SphereLinkage, [before, next]: [&FourBar; 2], symbols: &mut Sy
     let sine = Rational::from(q * x) - Rational::from(p * y);
     let value = radians(at_ground, &[cosine.clone(), sine.clone()]);
     let name = &linkage.joints[joint].name;
-    let meaning = format!("at {name} the angle from the rocker of one four-bar to the crank of the next, less that of the arcs of the ground");
+    let meaning = format!(
+        "at {name} the angle from the rocker of one four-bar to the crank of the next, less that of the arcs of the ground"
+    );
     symbols.add(format!("turn_{name}"), meaning, [&cosine, &sine], value)
 }
 
@@ -185,7 +187,8 @@ pub fn sphere_with_symbols(linkage: &SphereLinkage, input: usize) -> Result<Sphe
     let none = || Error::Unsupported("the relation vanishes for all angles".to_owned());
     let polynomial = without_circles(relation.filter(|p| !p.is_zero()).ok_or_else(none)?.primitive().0);
     if polynomial.len() > MOST_TERMS {
-        let message = format!("with all sides as symbols there are {} terms, expected at most {MOST_TERMS}", polynomial.len());
+        let message =
+            format!("with all sides as symbols there are {} terms, expected at most {MOST_TERMS}", polynomial.len());
         return Err(Error::Unsupported(message));
     }
     let (first, last) = fours.first().zip(fours.last()).ok_or_else(none)?;

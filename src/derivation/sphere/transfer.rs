@@ -66,7 +66,10 @@ fn rotation(joint: &SphereJoint, variable: usize) -> Result<[Vector<Plane>; 3]> 
     let at = |t: i32| turned(joint, &Angle::from_half_tangent(HalfTangent::Finite(Rational::from(t))));
     let ((start, exact), (quarter, also)) = (at(0), at(1));
     if !(exact && also) {
-        let message = format!("a polynomial in the half-angle tangent of the joint {}, whose directions have irrational lengths", joint.name);
+        let message = format!(
+            "a polynomial in the half-angle tangent of the joint {}, whose directions have irrational lengths",
+            joint.name
+        );
         return Err(Error::Unsupported(message));
     }
     let [u, w] = &joint.at;

@@ -49,13 +49,18 @@ pub(in crate::internal::derivation) fn dualised<R: Ring, const RHO: usize, const
 }
 
 /// Returns the axes of the rotations before and behind the link of a translation, in its frame.
-fn beside<R: Ring, const RHO: usize, const TAU: usize>(form: &LinkForm<R, RHO, TAU>, slide: &Slide<R>) -> [Vector<R>; 2] {
+fn beside<R: Ring, const RHO: usize, const TAU: usize>(
+    form: &LinkForm<R, RHO, TAU>,
+    slide: &Slide<R>,
+) -> [Vector<R>; 2] {
     let next = std::array::from_fn(|i| form.links[slide.link].rotation[i][2].clone());
     [[R::zero(), R::zero(), R::one()], next]
 }
 
 /// Returns the rotation along whose axis each translation runs; `None` if one runs along none.
-pub(in crate::internal::derivation) fn axes<R: Ring, const RHO: usize, const TAU: usize>(form: &LinkForm<R, RHO, TAU>) -> Option<[usize; TAU]> {
+pub(in crate::internal::derivation) fn axes<R: Ring, const RHO: usize, const TAU: usize>(
+    form: &LinkForm<R, RHO, TAU>,
+) -> Option<[usize; TAU]> {
     let axis = |slide: &Slide<R>| {
         let [own, next] = beside(form, slide);
         let along = |axis: &Vector<R>| cross(&slide.direction, axis).iter().all(Ring::is_zero);

@@ -71,7 +71,12 @@ impl Source for Closures<'_> {
 /// # Errors
 /// [`Error::Unsupported`] for more symbols, for mechanisms without a closure polynomial, if it would have more than 100,000 terms, and
 /// where it is ended; [`Error::Invalid`] for an unknown symbol.
-pub(crate) fn derive_interpolated(entry: &Entry, case: &Case, wanted: &[String], watch: &Watch<'_>) -> Result<Symbolic> {
+pub(crate) fn derive_interpolated(
+    entry: &Entry,
+    case: &Case,
+    wanted: &[String],
+    watch: &Watch<'_>,
+) -> Result<Symbolic> {
     let all = Setting::all(entry, case);
     let settings = Setting::named(&all, wanted)?;
     if settings.is_empty() || settings.len() > MOST_SYMBOLS {

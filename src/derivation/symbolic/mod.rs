@@ -101,7 +101,9 @@ pub fn derive_with_symbols(entry: &Entry, case: &Case, wanted: &[String], watch:
         return interpolated::derive_interpolated(entry, case, wanted, watch);
     }
     match derive_symbolic(entry, case, wanted) {
-        Err(Error::Unsupported(_)) if !wanted.is_empty() => interpolated::derive_interpolated(entry, case, wanted, watch),
+        Err(Error::Unsupported(_)) if !wanted.is_empty() => {
+            interpolated::derive_interpolated(entry, case, wanted, watch)
+        }
         other => other,
     }
 }

@@ -33,7 +33,8 @@ pub(super) fn found(exact: &Exact, unknown: usize) -> Result<Found> {
         let Some(base) = opposite_link(&form) else {
             return Err(none("the two translations must run along the two axes of one link"));
         };
-        return four_bar(exact, &form, base, unknown).ok_or_else(|| none("no pair of dual equations keeps the unknown"));
+        return four_bar(exact, &form, base, unknown)
+            .ok_or_else(|| none("no pair of dual equations keeps the unknown"));
     }
     Err(none(
         "it needs two translations along axes of rotations at least: a rotation without a translation along its axis has a real angle, and \
@@ -56,7 +57,10 @@ fn triangle(exact: &Exact, form: &LinkForm<Rational, 3, 3>, unknown: usize) -> O
     let turned = [Rational::new(), value[2].clone(), Rational::from(-&value[1])];
     let moment = combination(epsilon.iter().zip(&monomials)).add(&combination(turned.iter().zip(&monomials)).mul(&d));
     let equations = vec![
-        Equation::used(format!("dual triangle {}-{}, value", label(1), label(3)), &combination(value.iter().zip(&monomials))),
+        Equation::used(
+            format!("dual triangle {}-{}, value", label(1), label(3)),
+            &combination(value.iter().zip(&monomials)),
+        ),
         Equation::used(format!("dual triangle {}-{}, dual part", label(1), label(3)), &moment),
     ];
     let steps = vec![
@@ -76,7 +80,12 @@ fn triangle(exact: &Exact, form: &LinkForm<Rational, 3, 3>, unknown: usize) -> O
     ];
     let eliminant = of_row(Variable::Rotation, &value);
     let meaning = "one dual equation, its value and its dual part, over (1, d) of the joint".to_owned();
-    Some(Found { equations, steps, matrix: Matrix { rows: 2, columns: 2, entries: 2, meaning }, eliminants: vec![eliminant] })
+    Some(Found {
+        equations,
+        steps,
+        matrix: Matrix { rows: 2, columns: 2, entries: 2, meaning },
+        eliminants: vec![eliminant],
+    })
 }
 
 /// Derives two cylindrical joints on one link: the dual spherical four-bar, written for the link opposite.

@@ -15,7 +15,8 @@ use rug::Rational;
 pub(super) fn found(exact: &Exact, unknown: usize) -> Result<Found> {
     let none = |why: &str| refusal(Way::HalfAngle, why);
     let eliminated = if exact.elimination() == Elimination::Cut {
-        cuts::eliminate_keeping(exact, unknown).ok_or_else(|| none("every cut that keeps the unknown loses equations"))?
+        cuts::eliminate_keeping(exact, unknown)
+            .ok_or_else(|| none("every cut that keeps the unknown loses equations"))?
     } else {
         chain::eliminate(exact)?
     };
@@ -30,7 +31,11 @@ pub(super) fn found(exact: &Exact, unknown: usize) -> Result<Found> {
         (0..6).map(Symbols::variable).filter(|v| *v != kept && algebraic.iter().any(|p| p.degree(*v) > 0)).collect();
     let start = format!(
         "With cos = (1 - t^2)/(1 + t^2) and sin = 2t/(1 + t^2) the {} become polynomials in {}.",
-        if algebraic.len() == 1 { "closure equation".to_owned() } else { format!("{} closure equations", algebraic.len()) },
+        if algebraic.len() == 1 {
+            "closure equation".to_owned()
+        } else {
+            format!("{} closure equations", algebraic.len())
+        },
         std::iter::once(kept).chain(others.iter().copied()).map(name).collect::<Vec<_>>().join(", ")
     );
     match (algebraic.as_slice(), others.as_slice()) {

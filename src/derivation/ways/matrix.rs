@@ -61,9 +61,10 @@ impl PolynomialMatrix {
         // Any element of the field that is unlikely to be special.
         let x = Mod::from_integer(7_654_321);
         let entry = |i: usize, j: usize| {
-            self.powers.iter().rev().try_fold(Mod::zero(), |value, m| {
-                Some(value.mul(&x).add(&Mod::from_rational(&m[i][j])?))
-            })
+            self.powers
+                .iter()
+                .rev()
+                .try_fold(Mod::zero(), |value, m| Some(value.mul(&x).add(&Mod::from_rational(&m[i][j])?)))
         };
         let column = |j: usize| (0..self.rows()).map(|i| entry(i, j)).collect::<Option<Vec<Mod>>>();
         let mut order: Vec<usize> = (0..self.columns()).collect();

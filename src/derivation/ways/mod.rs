@@ -160,16 +160,21 @@ fn woernle_lee(exact: &Exact, unknown: usize) -> Result<Found> {
     // The factors divided out there already belong to the eliminant.
     let whole = eliminated.removed.iter().fold(polynomial, |product, one| {
         let factor = one.factor.as_ref().and_then(|factor| factor.to_univariate(Symbols::variable(unknown)));
-        factor.map_or(product.clone(), |factor| (0..one.multiplicity).fold(product, |p, _| {
-            Ring::mul(&p, &factor)
-        }))
+        factor.map_or(product.clone(), |factor| (0..one.multiplicity).fold(product, |p, _| Ring::mul(&p, &factor)))
     });
     let matrix = |rows, columns, entries, meaning: &str| Matrix { rows, columns, entries, meaning: meaning.to_owned() };
     let matrix = match exact.elimination() {
-        Elimination::Centre(_) => matrix(2, 3, 2, "two equations over (1, cos, sin), or (1, d, d^2), of the unknown that goes"),
+        Elimination::Centre(_) => {
+            matrix(2, 3, 2, "two equations over (1, cos, sin), or (1, d, d^2), of the unknown that goes")
+        }
         Elimination::Triangle => matrix(1, 3, 2, "one equation over (1, cos, sin) of the unknown"),
-        Elimination::Cut => matrix(8, 8, 2, "four equations times 1 and a half-angle tangent, over the products of its powers up to 3 with (1, the \
-                                            half-angle tangent of the third unknown)"),
+        Elimination::Cut => matrix(
+            8,
+            8,
+            2,
+            "four equations times 1 and a half-angle tangent, over the products of its powers up to 3 with (1, the \
+                                            half-angle tangent of the third unknown)",
+        ),
         Elimination::FourBar | Elimination::Planar => {
             matrix(2, 3, 2, "two equations over (1, cos, sin) of the unknown that goes")
         }
@@ -209,7 +214,10 @@ fn compared(way: Way, unknown: usize, found: Found, own: Derivation) -> Result<B
     divide(&circles, "no angle has the half-angle tangent i");
     let wanted = polynomial.coefficients.primitive_part();
     let mut quotient = rest.quotient(&wanted).ok_or_else(|| {
-        let message = format!("--by {} gives a polynomial in {name} that the closure polynomial does not divide: a fault of this program", way.name());
+        let message = format!(
+            "--by {} gives a polynomial in {name} that the closure polynomial does not divide: a fault of this program",
+            way.name()
+        );
         Error::Invalid(message)
     })?;
     while let Some(again) = quotient.quotient(&wanted).filter(|_| wanted.degree() > Some(0)) {

@@ -66,7 +66,8 @@ pub(super) fn found(exact: &Exact, unknown: usize) -> Result<Found> {
         ),
         format!("Its determinant is of degree 24 or less; 1 + {0}^2 divides it four times in general.", name(2)),
     ];
-    let meaning = format!("six equations times 1 and {0}, over the products of powers of {0} and {1}", name(0), name(1));
+    let meaning =
+        format!("six equations times 1 and {0}, over the products of powers of {0} and {1}", name(0), name(1));
     let size = Matrix { rows: 12, columns: 12, entries: matrix.degree(), meaning };
     // In a loop that is read backwards the unknown has the opposite sign.
     let eliminant = if cut.reversed { mirrored(&determinant) } else { determinant };
@@ -83,7 +84,8 @@ fn rows(exact: &Exact, cut: Cut) -> Option<[Trilinear; 6]> {
     let view = cut.of(&exact.closed);
     let form = half_angle_form(&view)?;
     let back = view.constants[1].inverse();
-    let columns = right_columns(&view).map(|row| row.map(|column| split_inverse(view.variables[2], &act(&back, &column))));
+    let columns =
+        right_columns(&view).map(|row| row.map(|column| split_inverse(view.variables[2], &act(&back, &column))));
     Some(std::array::from_fn(|e| {
         columns.each_ref().map(|row| {
             row.each_ref().map(|parts| {
@@ -150,6 +152,5 @@ mod tests {
         // cos + sin: (1 - t^2) + 2 t
         let row = [0, 1, 1].map(Rational::from);
         assert_eq!(powers(&row), [1, 2, -1].map(Rational::from));
-
     }
 }

@@ -89,8 +89,12 @@ pub(super) fn found(exact: &Exact, unknown: usize) -> Result<Found> {
             b = name(b)
         ),
     ];
-    let meaning =
-        format!("{2} quadrics times 1 and {0}, mixed to {rank}, over products of powers of {0} and {1}", name(a), name(b), quadrics.len());
+    let meaning = format!(
+        "{2} quadrics times 1 and {0}, mixed to {rank}, over products of powers of {0} and {1}",
+        name(a),
+        name(b),
+        quadrics.len()
+    );
     let size = Matrix { rows: rank, columns: rank, entries: matrix.degree(), meaning };
     Ok(Found { equations: split.listed(exact, &quadrics), steps, matrix: size, eliminants: eliminants.to_vec() })
 }
@@ -123,7 +127,10 @@ impl Split {
         // w over (1, a, b, a b), by powers of x.
         let product = |choice: usize| -> Vec<Rational> {
             let column = side(&linkage, left, choice);
-            inverse.iter().map(|row| row.iter().zip(&column).fold(Rational::new(), |sum, (x, y)| sum + Rational::from(x * y))).collect()
+            inverse
+                .iter()
+                .map(|row| row.iter().zip(&column).fold(Rational::new(), |sum, (x, y)| sum + Rational::from(x * y)))
+                .collect()
         };
         let form = |bits: usize| {
             let low = bits & ((1 << self.hidden) - 1);
@@ -135,7 +142,8 @@ impl Split {
             std::array::from_fn(|bits| Univariate::new(vec![forms[bits][0][i].clone(), forms[bits][1][i].clone()]))
         };
         let w: Vec<[Univariate<Rational>; 4]> = (0..8).map(coordinate).collect();
-        let all: Vec<Quadric> = minors().into_iter().map(|[i, j, k, l]| quadric([&w[i], &w[j]], [&w[k], &w[l]])).collect();
+        let all: Vec<Quadric> =
+            minors().into_iter().map(|[i, j, k, l]| quadric([&w[i], &w[j]], [&w[k], &w[l]])).collect();
         Some(independent(all))
     }
 

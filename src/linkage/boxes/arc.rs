@@ -186,9 +186,7 @@ mod tests {
                 let lo = -3.0 + 0.17 * f64::from(k);
                 let arc = Arc::new(lo, lo + width);
                 let [least, largest] = arc.range(&wave);
-                let values: Vec<f64> = (0..=1000)
-                    .map(|i| wave.at(point(lo + width * f64::from(i) / 1000.0)))
-                    .collect();
+                let values: Vec<f64> = (0..=1000).map(|i| wave.at(point(lo + width * f64::from(i) / 1000.0))).collect();
                 let seen = values.iter().fold([f64::MAX, f64::MIN], |[a, b], x| [a.min(*x), b.max(*x)]);
                 assert!(least <= seen[0] + 1e-13 && seen[1] <= largest + 1e-13);
                 assert!(width > HALF_TURN || (seen[0] - least < 1e-5 && largest - seen[1] < 1e-5));

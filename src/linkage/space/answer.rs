@@ -164,12 +164,7 @@ pub fn bodies(linkage: &SpaceLinkage) -> Vec<usize> {
 }
 
 /// The groups with their counts: the whole has the product of them.
-fn counted(
-    linkage: &SpaceLinkage,
-    given: &[SpaceGiven],
-    total: usize,
-    route: &'static str,
-) -> Result<Vec<SpaceGroup>> {
+fn counted(linkage: &SpaceLinkage, given: &[SpaceGiven], total: usize, route: &'static str) -> Result<Vec<SpaceGroup>> {
     let list = clusters(linkage, given, &bodies(linkage))?;
     let found = groups(linkage, given, &list);
     let mut parts: Vec<(Vec<usize>, usize)> = Vec::new();
@@ -263,15 +258,20 @@ fn counted_verdict(modes: &[SpaceMode], count: Count, has_point: bool, exact: bo
         if exact { Proof::Probable { error: drawn::PROBABILITY_OF_ERROR, seed: drawn::seed() } } else { Proof::None };
     let (status, code, proof, reason) = match (modes.len() == count, real) {
         (true, 0) => {
-            let reason = format!("{MODULO}: {count} assemblies with multiplicity; all are proved and none of them is real");
+            let reason =
+                format!("{MODULO}: {count} assemblies with multiplicity; all are proved and none of them is real");
             (Status::Unreachable, Code::NoSolution, probable, reason)
         }
         (true, _) => {
-            let reason = format!("{MODULO}: {count} assemblies with multiplicity; all are proved, by Krawczyk's theorem");
+            let reason =
+                format!("{MODULO}: {count} assemblies with multiplicity; all are proved, by Krawczyk's theorem");
             (Status::Complete, Code::CountMet, probable, reason)
         }
         (false, _) => {
-            let reason = format!("{MODULO}: {count} assemblies with multiplicity, of which {} were found and proved", modes.len());
+            let reason = format!(
+                "{MODULO}: {count} assemblies with multiplicity, of which {} were found and proved",
+                modes.len()
+            );
             (Status::Incomplete, Code::TooFew, Proof::None, reason)
         }
     };
@@ -316,13 +316,17 @@ fn verdict(basis: &str, modes: &[SpaceMode], dimension: Option<usize>, has_point
             Status::SelfMotion,
             Code::SelfMotion,
             Proof::None,
-            format!("{basis}: the assemblies form a set of dimension {dimension}, complex ones counted; a real one near which others lie to first order is listed"),
+            format!(
+                "{basis}: the assemblies form a set of dimension {dimension}, complex ones counted; a real one near which others lie to first order is listed"
+            ),
         ),
         (Some(dimension), _) => (
             Status::Incomplete,
             Code::TooFew,
             Proof::None,
-            format!("{basis}: the assemblies form a set of dimension {dimension}, complex ones counted; no real one was found in it"),
+            format!(
+                "{basis}: the assemblies form a set of dimension {dimension}, complex ones counted; no real one was found in it"
+            ),
         ),
     };
     Verdict {

@@ -70,21 +70,28 @@ pub fn home(list: &[Cluster], body: usize) -> Option<usize> {
 /// The joints between different clusters whose values are not given, with their clusters.
 #[must_use]
 pub fn open_joints(linkage: &SpaceLinkage, given: &[SpaceGiven], list: &[Cluster]) -> Vec<(usize, [usize; 2])> {
-    let is_given = |joint: usize| given.iter().any(|one| one.joint == Some(joint) && matches!(one.known, Known::Motion(_)));
+    let is_given =
+        |joint: usize| given.iter().any(|one| one.joint == Some(joint) && matches!(one.known, Known::Motion(_)));
     let joints = linkage.joints.iter().enumerate().filter(|(number, _)| !is_given(*number));
     joints.filter_map(|(number, joint)| Some((number, [home(list, joint.of[0])?, home(list, joint.of[1])?]))).collect()
 }
 
 fn is_rod(linkage: &SpaceLinkage, given: &[SpaceGiven], within: &[usize], list: &[Cluster], k: usize) -> bool {
     // A body with a joint to one outside of the part is none: that joint may hold it.
-    let whole = |body: usize| linkage.joints.iter().filter(|joint| joint.of.contains(&body)).all(|joint| {
-        joint.of.iter().all(|other| within.contains(other))
-    });
+    let whole = |body: usize| {
+        linkage
+            .joints
+            .iter()
+            .filter(|joint| joint.of.contains(&body))
+            .all(|joint| joint.of.iter().all(|other| within.contains(other)))
+    };
     let own: Vec<(usize, [usize; 2])> =
         open_joints(linkage, given, list).into_iter().filter(|(_, of)| of.contains(&k)).collect();
-    let ends: Vec<usize> = own.iter().filter(|(joint, of)| {
-        of[0] != of[1] && linkage.joints[*joint].pair == SpacePair::Spherical
-    }).map(|(_, of)| if of[0] == k { of[1] } else { of[0] }).collect();
+    let ends: Vec<usize> = own
+        .iter()
+        .filter(|(joint, of)| of[0] != of[1] && linkage.joints[*joint].pair == SpacePair::Spherical)
+        .map(|(_, of)| if of[0] == k { of[1] } else { of[0] })
+        .collect();
     // Two rods in a row are none: their common point is free.
     let is_plain = |other: usize| other == 0 || !list[other].is_rod;
     own.len() == 2 && ends.len() == 2 && ends.into_iter().all(is_plain) && list[k].bodies.iter().all(|(b, _)| whole(*b))
@@ -148,7 +155,8 @@ pub fn groups(linkage: &SpaceLinkage, given: &[SpaceGiven], list: &[Cluster]) ->
             })
             .collect();
         let rod_bits = (0..list.len()).filter(|k| list[*k].is_rod).fold(0, |set, k| set | of(k));
-        let mut sets: Vec<u32> = (1..1_u32 << roots.len()).filter(|set| set & rod_bits == 0 && set.count_ones() > 1).collect();
+        let mut sets: Vec<u32> =
+            (1..1_u32 << roots.len()).filter(|set| set & rod_bits == 0 && set.count_ones() > 1).collect();
         sort::by_key(&mut sets, |set| set.count_ones());
         let rigid = sets.into_iter().find(|set| {
             let inner = |of: u32| of & !set == 0 && of.count_ones() == 2;

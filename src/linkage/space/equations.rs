@@ -197,7 +197,8 @@ impl System {
         if let Some(place) = self.places[a].clone() {
             self.places[b] = Some(place.then_after(&ends[0]).then_after(&across).then_after(&ends[1].inverse()));
         } else if let Some(place) = self.places[b].clone() {
-            self.places[a] = Some(place.then_after(&ends[1]).then_after(&across.inverse()).then_after(&ends[0].inverse()));
+            self.places[a] =
+                Some(place.then_after(&ends[1]).then_after(&across.inverse()).then_after(&ends[0].inverse()));
         }
         Ok(())
     }

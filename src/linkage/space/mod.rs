@@ -12,6 +12,6 @@ mod universal;
 mod values;
 
 pub use answer::{Coordinate, SpaceAnswer, SpaceGroup, SpaceMode, bodies, solve};
-pub use equations::System;
 pub use conditions::conditions;
+pub use equations::System;
 pub use rates::{SpaceRates, rates};

@@ -235,14 +235,19 @@ pub(super) fn real_point(
         let v = svd.v_t?;
         let free: Vec<Vec<f64>> = (rank..v.nrows()).map(|k| v.row(k).iter().copied().collect()).collect();
         let here = floating(linkage, given, system, &x);
-        let moved: Vec<SpaceMode> = free.iter().map(|way| {
-            let next: Vec<f64> = x.iter().zip(way).map(|(x, way)| x + 1e-5 * way).collect();
-            floating(linkage, given, system, &next)
-        }).collect();
-        let moves = |joint: &usize| moved.iter().any(|mode| match (&mode.joints[*joint], &here.joints[*joint]) {
-            (Some(a), Some(b)) => (a - b).norm() > 1e-8,
-            _ => false,
-        });
+        let moved: Vec<SpaceMode> = free
+            .iter()
+            .map(|way| {
+                let next: Vec<f64> = x.iter().zip(way).map(|(x, way)| x + 1e-5 * way).collect();
+                floating(linkage, given, system, &next)
+            })
+            .collect();
+        let moves = |joint: &usize| {
+            moved.iter().any(|mode| match (&mode.joints[*joint], &here.joints[*joint]) {
+                (Some(a), Some(b)) => (a - b).norm() > 1e-8,
+                _ => false,
+            })
+        };
         let joints = (0..linkage.joints.len()).filter(moves).collect();
         return Some((here, joints));
     }

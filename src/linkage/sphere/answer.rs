@@ -81,7 +81,8 @@ pub struct SphereAnswer {
 pub fn solve(linkage: &SphereLinkage, given: &[SphereGiven], exact: bool) -> Result<SphereAnswer> {
     let start = Instant::now();
     let system = System::of(linkage, given)?;
-    let too_much = || Error::Unsupported("the Gröbner basis of this linkage takes more work than is allowed".to_owned());
+    let too_much =
+        || Error::Unsupported("the Gröbner basis of this linkage takes more work than is allowed".to_owned());
     let basis = Basis::of(system.unknowns, &system.equations, EFFORT).ok_or_else(too_much)?;
     let (mut modes, dimension) = match basis.dimension() {
         None => (Vec::new(), 0),
@@ -104,7 +105,9 @@ fn verdict(modes: &[SphereMode], dimension: usize, exact: bool) -> Verdict {
         (1.., ..) => (
             Status::SelfMotion,
             Code::SelfMotion,
-            format!("a Gröbner basis over the rationals: the assemblies form a set of dimension {dimension}, complex ones counted"),
+            format!(
+                "a Gröbner basis over the rationals: the assemblies form a set of dimension {dimension}, complex ones counted"
+            ),
         ),
         (0, 0, _) => (
             Status::Unreachable,
@@ -193,7 +196,8 @@ fn mode(
 ) -> Option<SphereMode> {
     let axes: Vec<Vector<Disc>> = system.axes.iter().map(|axis| axis.each_ref().map(image)).collect();
     let zero = || Complex::new(0.0, 0.0);
-    let mut bodies: Vec<Matrix<Coordinate>> = vec![std::array::from_fn(|_| std::array::from_fn(|_| zero())); linkage.bodies.len()];
+    let mut bodies: Vec<Matrix<Coordinate>> =
+        vec![std::array::from_fn(|_| std::array::from_fn(|_| zero())); linkage.bodies.len()];
     let mut radius = f64::EPSILON;
     for (k, cluster) in system.clusters.iter().enumerate() {
         let turn: Matrix<Disc> = if k == 0 {
@@ -203,7 +207,8 @@ fn mode(
             rotation(cluster, [first, second])
         };
         for (body, own) in &cluster.bodies {
-            let own = own.each_ref().map(|row| row.each_ref().map(|c| Disc::from_rational(c).unwrap_or_else(Disc::zero)));
+            let own =
+                own.each_ref().map(|row| row.each_ref().map(|c| Disc::from_rational(c).unwrap_or_else(Disc::zero)));
             let place = product(&turn, &own);
             for (i, row) in place.iter().enumerate() {
                 for (j, entry) in row.iter().enumerate() {

@@ -110,7 +110,8 @@ impl System {
                 merged.merge(cluster.bodies[0].0, *body);
             }
         }
-        let links: Vec<(usize, [usize; 2])> = linkage.joints.iter().enumerate().map(|(k, joint)| (k, joint.of)).collect();
+        let links: Vec<(usize, [usize; 2])> =
+            linkage.joints.iter().enumerate().map(|(k, joint)| (k, joint.of)).collect();
         let freedoms = groups(linkage.bodies.len(), &links, merged).freedoms;
         if freedoms > 0 {
             let message = format!(
@@ -175,7 +176,9 @@ impl System {
                 continue;
             }
             let open = self.clusters[1..].iter().flat_map(|cluster| &cluster.joints);
-            let Some((joint, axis)) = open.into_iter().find(|(joint, _)| degree[*joint].is_none()).cloned() else { break };
+            let Some((joint, axis)) = open.into_iter().find(|(joint, _)| degree[*joint].is_none()).cloned() else {
+                break;
+            };
             if self.unknowns + 3 > MOST_VARIABLES {
                 let message = format!("a linkage on the sphere with more than {} axes to find", MOST_VARIABLES / 3);
                 return Err(Error::Unsupported(message));

@@ -6,8 +6,8 @@
 use super::answer::SphereMode;
 use crate::algebra::number::nearest_f64;
 use crate::kinematics::motion::{Motion, Vector, cross, dot};
-use crate::mechanism::Moving;
 use crate::kinematics::sphere::{SphereGiven, SphereLinkage};
+use crate::mechanism::Moving;
 use looproot_calculus::displacement::velocity::State;
 use looproot_calculus::rotation::matrix::apply;
 use nalgebra::{DMatrix, DVector};
@@ -82,7 +82,11 @@ pub fn rates(linkage: &SphereLinkage, given: &[SphereGiven], mode: &SphereMode) 
         let state = State { omega: of(&first, body), alpha: of(&second, body), velocity: zero, acceleration: zero };
         state.motion(&Motion { rotation: *place, translation: zero })
     });
-    let joints = linkage.joints.iter().zip(&axes).map(|(joint, axis)| [&first, &second].map(|all| dot(axis, &apart(all, joint.of))));
+    let joints = linkage
+        .joints
+        .iter()
+        .zip(&axes)
+        .map(|(joint, axis)| [&first, &second].map(|all| dot(axis, &apart(all, joint.of))));
     Some(Rates { bodies: bodies.collect::<Option<_>>()?, joints: joints.collect() })
 }
 

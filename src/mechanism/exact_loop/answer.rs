@@ -81,18 +81,21 @@ impl Question<'_> {
         let Some(cycle) = Cycle::of(self.chain, self.layout, self.case)?.filter(|cycle| cycle.before.is_none()) else {
             return Ok(None);
         };
-        let dimension = System::of_loop(&cycle.steps).and_then(|system| dimension_modulo_prime(&system, MODULAR_EFFORT));
+        let dimension =
+            System::of_loop(&cycle.steps).and_then(|system| dimension_modulo_prime(&system, MODULAR_EFFORT));
         Ok(dimension.map(|dimension| {
             let verdict = self.moving(&cycle, dimension);
             if dimension == 0 {
                 let of = equations(&cycle);
-                let reason = format!("not proved: finitely many solutions, by a Gröbner basis of {of} modulo a prime drawn at run time");
+                let reason = format!(
+                    "not proved: finitely many solutions, by a Gröbner basis of {of} modulo a prime drawn at run time"
+                );
                 let (status, code) = (Status::Incomplete, Code::UnknownMultiplicity);
                 return Verdict { status, proof: Proof::None, code, reason, ..verdict };
             }
             let proof = Proof::Probable { error: drawn::PROBABILITY_OF_ERROR, seed: drawn::seed() };
             let reason = verdict.reason.replace("over the rationals", "modulo a prime drawn at run time");
-                Verdict { proof, reason, ..verdict }
+            Verdict { proof, reason, ..verdict }
         }))
     }
 

@@ -25,7 +25,8 @@ impl Cycle {
     /// # Errors
     /// For a case without input that has one.
     pub fn of(chain: &Chain, layout: &Layout, case: &Case) -> Result<Option<Self>> {
-        let is_inside = |spherical: usize| layout.locked.is_some_and(|locked| (spherical..spherical + 3).contains(&locked));
+        let is_inside =
+            |spherical: usize| layout.locked.is_some_and(|locked| (spherical..spherical + 3).contains(&locked));
         if layout.second_spherical.is_some() || layout.spherical.is_some_and(is_inside) {
             return Ok(None);
         }

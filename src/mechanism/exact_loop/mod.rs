@@ -8,12 +8,12 @@
 mod answer;
 mod by_cut;
 mod configuration;
-mod ss_dyad;
 mod cycle;
 mod equations;
 mod measure;
 mod outcome;
 pub(crate) mod roots;
+mod ss_dyad;
 
 pub(super) use answer::{Answer, Question};
 pub(super) use ss_dyad::SsDyadQuestion;

@@ -237,7 +237,13 @@ impl ExactSide<'_> {
     }
 
     fn solve_in_high_precision<const LIMBS: usize>(&self, search: &mut Search, expected: usize) {
-        search.solver.solve_in_high_precision::<LIMBS>(self.platform, self.squares, expected, search.memory, search.assembly);
+        search.solver.solve_in_high_precision::<LIMBS>(
+            self.platform,
+            self.squares,
+            expected,
+            search.memory,
+            search.assembly,
+        );
     }
 
     /// Puts multiple poses that are known exactly into the list.
@@ -273,7 +279,10 @@ fn at_most(most: usize, why: &str) -> Bound {
 /// The bound that a basis over the rationals gives.
 fn by_points(most: usize) -> Bound {
     let (code, because) = match most {
-        0 => (Code::NoSolution, "0 poses that there can be: over the rationals 1 is a combination of the equations".to_owned()),
+        0 => (
+            Code::NoSolution,
+            "0 poses that there can be: over the rationals 1 is a combination of the equations".to_owned(),
+        ),
         _ => (
             Code::ExactRootsMatched,
             format!("at most {most} poses that there can be, by a Gröbner basis of the equations over the rationals"),

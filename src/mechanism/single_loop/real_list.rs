@@ -12,14 +12,8 @@ use crate::verdict::{Code, Proof, Status, Verdict};
 const NEAR: f64 = 3000.0;
 
 /// One of the ways in which a solver looks for real solutions: see [`Solver::solve_real`].
-type Way = fn(
-    &Solver,
-    &Gap,
-    &dyn Fn() -> Option<ClosedLoop<DoubleDouble>>,
-    Margin,
-    &mut Workspace,
-    &mut Assembly,
-) -> bool;
+type Way =
+    fn(&Solver, &Gap, &dyn Fn() -> Option<ClosedLoop<DoubleDouble>>, Margin, &mut Workspace, &mut Assembly) -> bool;
 
 impl Question<'_> {
     /// Finds the real solutions by the zeros of a determinant, and returns whether these prove them to be all. The list is then that of
@@ -28,7 +22,8 @@ impl Question<'_> {
     /// What is near a pose is found from complex solutions, which are not looked for: either nothing is near, or there is a real
     /// solution and no sign of others.
     pub(super) fn has_real_list(&self, workspace: &mut Workspace, assembly: &mut Assembly) -> bool {
-        self.has_quick_real_list(workspace, assembly) || self.by_margins(Solver::solve_real_closely, workspace, assembly)
+        self.has_quick_real_list(workspace, assembly)
+            || self.by_margins(Solver::solve_real_closely, workspace, assembly)
     }
 
     /// As [`Self::has_real_list`], where that takes a few microseconds.
@@ -49,7 +44,12 @@ impl Question<'_> {
     /// The verdict on a list of certified solutions, complex ones among them, where real solutions are asked for alone, the verdict at
     /// hand is not proved, and the real ones are proved to be all by the zeros of a determinant. The complex ones stay in the list:
     /// near a pose may be what is not real here.
-    pub(super) fn beside_real_zeros(&self, verdict: &Verdict, workspace: &mut Workspace, assembly: &Assembly) -> Option<Verdict> {
+    pub(super) fn beside_real_zeros(
+        &self,
+        verdict: &Verdict,
+        workspace: &mut Workspace,
+        assembly: &Assembly,
+    ) -> Option<Verdict> {
         let is_certified = |mode: &Mode| mode.multiplicity == 1 && mode.certificate.is_some();
         let is_asked = self.only_real_list && !self.only_lists && !is_settled(verdict) && assembly.self_motion == 0;
         if !is_asked || !assembly.modes.iter().all(is_certified) {
@@ -61,7 +61,8 @@ impl Question<'_> {
             return None;
         }
         let mut real = Assembly::default();
-        let is_proved = self.real_by(Solver::solve_real, Margin::Blur(0.0), workspace, &mut real) && real.modes.len() == number;
+        let is_proved =
+            self.real_by(Solver::solve_real, Margin::Blur(0.0), workspace, &mut real) && real.modes.len() == number;
         is_proved.then(|| of_real_zeros(assembly))
     }
 

@@ -4,18 +4,18 @@ mod motion;
 mod series;
 mod system;
 
+use super::spatial::Shafts;
 use crate::catalogue::{LinkageConfiguration, LinkageFile};
 use crate::error::{Error, Result};
 use crate::kinematics::linkage::{Accuracy, Gaussian, Given, Linkage, Pair};
 use crate::linkage::answer::solve;
-use crate::linkage::groups::{Groups, groups};
 use crate::linkage::assembly::{Link, glued};
-use super::spatial::Shafts;
+use crate::linkage::groups::{Groups, groups};
 use crate::verdict::{Code, Proof};
-use rug::Rational;
-pub(in crate::internal::mobility) use series::Reduced;
 pub use motion::solve_or_move;
+use rug::Rational;
 use series::Local;
+pub(in crate::internal::mobility) use series::Reduced;
 use system::System;
 
 /// What is known of the mobility of a linkage.
@@ -114,8 +114,11 @@ fn at(linkage: &Linkage, configuration: &LinkageConfiguration, exact: bool) -> R
             answer(Some(0), rounded(Proof::Proved), Code::NoCurve, reason)
         }
         Local::Moves { order, bound } => {
-            let along =
-                if first == 1 { "the only first-order motion".to_owned() } else { format!("{} first-order motions", local.lines) };
+            let along = if first == 1 {
+                "the only first-order motion".to_owned()
+            } else {
+                format!("{} first-order motions", local.lines)
+            };
             let reason = format!(
                 "all closure equations hold along {along} through order {order}, exactly, and no isolated assembly has a multiplicity \
                  above {bound}: the assemblies near the configuration form a manifold of dimension {first}"
@@ -160,8 +163,7 @@ fn at(linkage: &Linkage, configuration: &LinkageConfiguration, exact: bool) -> R
 }
 
 /// Half-angle tangents and displacements tried for the joints that are held.
-const TRIED: [[i32; 2]; 10] =
-    [[1, 2], [-1, 2], [2, 1], [-2, 1], [1, 5], [-1, 5], [1, 1], [-1, 1], [5, 1], [-5, 1]];
+const TRIED: [[i32; 2]; 10] = [[1, 2], [-1, 2], [2, 1], [-2, 1], [1, 5], [-1, 5], [1, 1], [-1, 1], [5, 1], [-5, 1]];
 
 /// Holds as many joints as the linkage has freedoms by count, and looks for a real assembly.
 fn somewhere(linkage: &Linkage, exact: bool) -> Result<LinkageMobility> {
@@ -179,8 +181,7 @@ fn somewhere(linkage: &Linkage, exact: bool) -> Result<LinkageMobility> {
         shafts: Vec::new(),
     };
     if let Some(group) = counted.list.iter().find(|group| group.count < 0) {
-        let names: Vec<&str> =
-            group.clusters.iter().take(8).map(|body| linkage.bodies[*body].name.as_str()).collect();
+        let names: Vec<&str> = group.clusters.iter().take(8).map(|body| linkage.bodies[*body].name.as_str()).collect();
         let reason = format!(
             "the bodies {} have more joints than hold them together: such a linkage is decided at a [configuration]",
             names.join(", ")
@@ -206,7 +207,8 @@ fn somewhere(linkage: &Linkage, exact: bool) -> Result<LinkageMobility> {
         }
     }
     for k in 0..TRIED.len() {
-        let given: Vec<Given> = held.iter().enumerate().map(|(place, joint)| given(linkage, *joint, k + 3 * place)).collect();
+        let given: Vec<Given> =
+            held.iter().enumerate().map(|(place, joint)| given(linkage, *joint, k + 3 * place)).collect();
         let Ok(found) = solve(linkage, &given, Accuracy::Exact) else { continue };
         if found.modes.iter().any(|mode| mode.real && mode.multiplicity == 1) {
             return Ok(regular(linkage, freedoms, exact, &answer));

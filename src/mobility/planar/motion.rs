@@ -2,8 +2,8 @@
 
 use super::system::System;
 use super::{LinkageMobility, at};
-use crate::catalogue::{LinkageCase, LinkageConfiguration, LinkageFile};
 use crate::algebra::ring::Ring;
+use crate::catalogue::{LinkageCase, LinkageConfiguration, LinkageFile};
 use crate::error::Result;
 use crate::kinematics::linkage::{Linkage, Pair};
 use crate::linkage::answer::{LinkageAnswer, LinkageFamily, solve_asked};
@@ -54,7 +54,8 @@ impl Motion {
         verdict.code = Code::SelfMotion;
         verdict.proof = mobility.proof;
         verdict.self_motion = family.dimension;
-        verdict.reason = format!("at the configuration of the file {}; other assemblies are not all looked for", mobility.reason);
+        verdict.reason =
+            format!("at the configuration of the file {}; other assemblies are not all looked for", mobility.reason);
         answer.families = vec![family];
         answer
     }
@@ -78,7 +79,8 @@ fn motion(file: &LinkageFile, configuration: &LinkageConfiguration) -> Option<Mo
         motions.iter().any(|series| {
             let own = |variable: Option<usize>| variable.map_or(&at_rest, |variable| &series[variable]);
             let [one, two] = [own(first), own(second)];
-            (0..=LAST).any(|order| one.get(order).cloned().unwrap_or_default() != two.get(order).cloned().unwrap_or_default())
+            (0..=LAST)
+                .any(|order| one.get(order).cloned().unwrap_or_default() != two.get(order).cloned().unwrap_or_default())
         })
     };
     let joints = (0..linkage.joints.len()).filter(moves).collect();

@@ -109,9 +109,9 @@ impl<'a> Solver<'a> {
     /// Returns the values of all combinations.
     fn combined(&self, values: &[Rational]) -> Vec<Rational> {
         let dot = |row: &Vec<Rational>| {
-            row.iter().zip(values).fold(Rational::new(), |sum, (a, b)| {
-                if *a == 0 || *b == 0 { sum } else { sum + Rational::from(a * b) }
-            })
+            row.iter()
+                .zip(values)
+                .fold(Rational::new(), |sum, (a, b)| if *a == 0 || *b == 0 { sum } else { sum + Rational::from(a * b) })
         };
         self.combinations.iter().map(dot).collect()
     }
@@ -149,7 +149,11 @@ impl<'a> Solver<'a> {
                     let Some(class) = class else { continue };
                     let shifts = &values[turns + slide];
                     let products = (1..order).fold(times(&known[*class], &system.slides[*slide]), |sum, m| {
-                        if shifts[order - m] == 0 { sum } else { sum.add(&times(&rotations[*class][m], &shifts[order - m])) }
+                        if shifts[order - m] == 0 {
+                            sum
+                        } else {
+                            sum.add(&times(&rotations[*class][m], &shifts[order - m]))
+                        }
                     });
                     sum = sum.add(&coefficient.mul(&products));
                 }
@@ -252,13 +256,16 @@ impl System {
     /// Returns the largest multiplicity that an isolated solution can have, of as many of the equations as there are variables, so many
     /// of them sections.
     fn bound(&self, sections: usize) -> usize {
-        let doubled = |bound: usize| (0..sections).try_fold(bound, |bound, _| bound.checked_mul(2)).unwrap_or(usize::MAX);
+        let doubled =
+            |bound: usize| (0..sections).try_fold(bound, |bound, _| bound.checked_mul(2)).unwrap_or(usize::MAX);
         if self.slides.is_empty() {
             return doubled(binomial(self.turns, self.turns / 2));
         }
         let moving = self.cycles.iter().filter(|cycle| cycle.sliding.iter().any(|own| own.class.is_some())).count();
         let twos = self.turns + (2 * moving).min(self.variables());
-        doubled(1_usize.checked_shl(u32::try_from(twos).unwrap_or(u32::MAX)).filter(|_| twos < 60).unwrap_or(usize::MAX))
+        doubled(
+            1_usize.checked_shl(u32::try_from(twos).unwrap_or(u32::MAX)).filter(|_| twos < 60).unwrap_or(usize::MAX),
+        )
     }
 
     /// Returns motions as series of all variables up to an order, one for every first-order motion of a basis.

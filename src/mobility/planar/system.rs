@@ -108,7 +108,8 @@ impl System {
         let slides = displacements(linkage, configuration, &equations, &turns)?;
         let bodies = classes.into_iter().map(|class| variable(class, rest)).collect();
         let system = Self { bodies, ..Self::of(&equations, &turns, rest, slides) };
-        let size = linkage.bodies.iter().flat_map(|body| &body.points).map(|(_, at)| self::size(at)).fold(1e-9, f64::max);
+        let size =
+            linkage.bodies.iter().flat_map(|body| &body.points).map(|(_, at)| self::size(at)).fold(1e-9, f64::max);
         if system.gap() > OPEN * size {
             let message = format!(
                 "found a configuration whose worst loop is open by {:.6} m, expected one that closes",
@@ -248,7 +249,8 @@ fn displacements(
         for (class, coefficient) in cycle.iter().enumerate() {
             rest = rest.add(&coefficient.z.mul(&turns[class]));
         }
-        let of = |slide: usize| equations.slides[slide].coefficients[number].z.mul(&turns[equations.slides[slide].class]);
+        let of =
+            |slide: usize| equations.slides[slide].coefficients[number].z.mul(&turns[equations.slides[slide].class]);
         for (slide, value) in known.iter().enumerate() {
             if let Some(value) = value {
                 rest = rest.add(&times(&of(slide), value));

@@ -53,7 +53,10 @@ pub(super) fn freedoms(joint: &SpaceJoint, places: [&Motion<Rational>; 2]) -> Re
         [about(at, &first), about(at, &cross(&leg, &first))]
     };
     let degenerate = |what: &str| {
-        Err(Error::Unsupported(format!("the mobility of a linkage at a place where {what} at the joint {}", joint.name)))
+        Err(Error::Unsupported(format!(
+            "the mobility of a linkage at a place where {what} at the joint {}",
+            joint.name
+        )))
     };
     let has_leg = matches!(joint.pair, SpacePair::Rod(_) | SpacePair::Leg | SpacePair::UniversalLeg(_));
     if has_leg && is_zero(&leg) {

@@ -70,7 +70,8 @@ impl System {
         for (joint, (_, freedoms)) in joints.iter().enumerate() {
             first.push(variables.len());
             variables.extend(freedoms.iter().map(|freedom| {
-                let square = freedom.iter().take(1).flat_map(|line| &line.direction).map(|c| Rational::from(c * c)).sum();
+                let square =
+                    freedom.iter().take(1).flat_map(|line| &line.direction).map(|c| Rational::from(c * c)).sum();
                 Variable { joint, is_single: freedoms.len() == 1, square }
             }));
         }
@@ -197,11 +198,8 @@ impl<'a> Solver<'a> {
         let system = self.system;
         let mut values: Vec<Vec<Rational>> = motion.iter().map(|v| vec![Rational::new(), v.clone()]).collect();
         // Of every step of every loop, the coefficients of the product before it times its line.
-        let mut before: Vec<Vec<Vec<DualQuaternion<Rational>>>> = system
-            .loops
-            .iter()
-            .map(|steps| steps.iter().map(|step| vec![step.line.clone()]).collect())
-            .collect();
+        let mut before: Vec<Vec<Vec<DualQuaternion<Rational>>>> =
+            system.loops.iter().map(|steps| steps.iter().map(|step| vec![step.line.clone()]).collect()).collect();
         for order in 1..=last {
             if order > 1 {
                 for series in &mut values {

@@ -15,8 +15,8 @@ use crate::linkage::sphere;
 use crate::verdict::{Code, Proof};
 use curves::{Agreement, agree, shafts};
 use freedoms::{Freedom, freedoms};
-use loops::{Solver, System};
 use looproot_calculus::line::pluecker::Line;
+use loops::{Solver, System};
 use rug::Rational;
 
 /// A configuration that is open by more than this part of the size of the linkage is none.
@@ -67,14 +67,17 @@ pub fn space_mobility(file: &SpaceFile) -> Result<LinkageMobility> {
     let name = |joint: usize| linkage.joints[joint].name.as_str();
     closed(gap, size, name)?;
     let is_shaft = |joint: usize| {
-        matches!(linkage.joints[joint].pair, SpacePair::Revolute(_)) && linkage.joints[joint].of.contains(&linkage.ground)
+        matches!(linkage.joints[joint].pair, SpacePair::Revolute(_))
+            && linkage.joints[joint].of.contains(&linkage.ground)
     };
     // Of a loop the largest number of assemblies for a given value of one of its variables.
     let most = |own: &System| {
         let joints: Vec<usize> = distinct(own);
-        let count = |wanted: fn(&SpacePair) -> bool| joints.iter().filter(|k| wanted(&linkage.joints[**k].pair)).count();
+        let count =
+            |wanted: fn(&SpacePair) -> bool| joints.iter().filter(|k| wanted(&linkage.joints[**k].pair)).count();
         let balls = count(|pair| matches!(pair, SpacePair::Spherical | SpacePair::Rod(_)));
-        let others = count(|pair| matches!(pair, SpacePair::Parallelogram(..) | SpacePair::Leg | SpacePair::UniversalLeg(_)));
+        let others =
+            count(|pair| matches!(pair, SpacePair::Parallelogram(..) | SpacePair::Leg | SpacePair::UniversalLeg(_)));
         match (own.used().len(), others, balls) {
             (7, 0, 1) => Some(4),
             (7, 0, 0) => Some(16),
@@ -141,7 +144,9 @@ pub fn sphere_mobility(file: &SphereFile) -> Result<LinkageMobility> {
 }
 
 fn without() -> Error {
-    Error::Unsupported("the mobility of a linkage in space or on the sphere without a [configuration] and without inputs".to_owned())
+    Error::Unsupported(
+        "the mobility of a linkage in space or on the sphere without a [configuration] and without inputs".to_owned(),
+    )
 }
 
 /// Says what follows from the assemblies with as many variables held; `ring` names those of a single loop that are not regular.
@@ -154,7 +159,9 @@ fn somewhere(gruebler: i64, held: i64, is_simple: bool, ring: Option<&str>) -> L
     );
     let (proof, code, reason) = match (is_regular, ring) {
         (true, Some(ring)) => {
-            let reason = format!("{manifold}; the equations of a single loop are dependent in assemblies only {ring}, which move in no more dimensions");
+            let reason = format!(
+                "{manifold}; the equations of a single loop are dependent in assemblies only {ring}, which move in no more dimensions"
+            );
             (Proof::Proved, Code::RegularConfiguration, reason)
         }
         (true, None) => {
@@ -169,14 +176,27 @@ fn somewhere(gruebler: i64, held: i64, is_simple: bool, ring: Option<&str>) -> L
             (Proof::None, Code::NotDecided, reason)
         }
     };
-    LinkageMobility { mobility, gruebler, first_order: mobility, order: None, branches: 0, proof, code, reason, shafts: Vec::new() }
+    LinkageMobility {
+        mobility,
+        gruebler,
+        first_order: mobility,
+        order: None,
+        branches: 0,
+        proof,
+        code,
+        reason,
+        shafts: Vec::new(),
+    }
 }
 
 fn closed<'a>((gap, joint): (f64, usize), size: f64, name: impl Fn(usize) -> &'a str) -> Result<()> {
     if gap <= OPEN * size {
         return Ok(());
     }
-    let message = format!("found a configuration that leaves the joint {} open by {gap:.3e}, expected one that closes", name(joint));
+    let message = format!(
+        "found a configuration that leaves the joint {} open by {gap:.3e}, expected one that closes",
+        name(joint)
+    );
     Err(Error::Invalid(message))
 }
 
@@ -223,9 +243,14 @@ impl Question<'_> {
             reason,
             shafts: Vec::new(),
         };
-        let none = |reason: String| LinkageMobility { proof: Proof::None, ..answer(None, Proof::None, Code::NotDecided, reason) };
+        let none = |reason: String| LinkageMobility {
+            proof: Proof::None,
+            ..answer(None, Proof::None, Code::NotDecided, reason)
+        };
         if !self.is_closed {
-            let reason = format!("the configuration closes approximately only: its rank, {rank} of {variables} variables, is measured");
+            let reason = format!(
+                "the configuration closes approximately only: its rank, {rank} of {variables} variables, is measured"
+            );
             let mobility = (rank == rows || first == 0).then_some(first);
             return LinkageMobility { mobility, ..none(reason) };
         }
@@ -285,7 +310,8 @@ impl Question<'_> {
         for (joints, is_opposite) in shafts(&self.system, self.most, self.is_shaft) {
             let [a, b] = joints.map(self.name);
             let sign = if is_opposite { "-" } else { "" };
-            answer.reason += &format!(". The turns of {a} and {b} from there are equal along the motion: {b} = {sign}{a}");
+            answer.reason +=
+                &format!(". The turns of {a} and {b} from there are equal along the motion: {b} = {sign}{a}");
             answer.shafts.push(Shafts { joints, is_opposite });
         }
         answer

@@ -68,7 +68,9 @@ fn joint(joint: &Joint) -> Map<String, Value> {
     if let Some(key) = d.key_of_d().filter(|_| d != DhConstant::Offset || !is_zero) {
         fields.insert(key.into(), text_of(&number(&joint.d)));
     }
-    if let Some([key, _]) = theta.keys_of_theta().filter(|_| theta != DhConstant::Stated && joint.theta0 != Angle::zero()) {
+    if let Some([key, _]) =
+        theta.keys_of_theta().filter(|_| theta != DhConstant::Stated && joint.theta0 != Angle::zero())
+    {
         insert_angle(&mut fields, key, &joint.theta0);
     }
     if let Some(pitch) = &joint.pitch {

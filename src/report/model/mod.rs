@@ -14,8 +14,8 @@ mod synthesis;
 pub use ansatz::json as ansatz_json;
 pub use framework::json as framework_json;
 pub use linkage::json as linkage_json;
-pub use space::json as space_json;
 pub use platform::limits as platform_limits;
+pub use space::json as space_json;
 pub use sphere::json as sphere_json;
 pub use synthesis::json as synthesis_json;
 

@@ -27,7 +27,9 @@ pub(super) fn text(file: &SynthesisFile) -> String {
     origin(&mut text, file.heading.source.as_ref(), file.heading.notes.as_deref());
     let mut table = match &file.task {
         Task::Motion(..) => Columns::new(&["position", "rotation, by rows", "translation"], &["position"]),
-        Task::Function(_) => Columns::new(&["pair", "cos, sin of the input", "cos, sin of the output", "ratio of the rates"], &["pair"]),
+        Task::Function(_) => {
+            Columns::new(&["pair", "cos, sin of the input", "cos, sin of the output", "ratio of the rates"], &["pair"])
+        }
         Task::Path(_) => Columns::new(&["point", "x, y"], &["point"]),
     };
     match &file.task {

@@ -43,7 +43,8 @@ pub fn text(file: &SynthesisFile, answer: &Answer) -> String {
         return text;
     }
     let columns = if matches!(file.task, Task::Path(_)) { ["four-bar", "crank at"] } else { ["crank", "rocker"] };
-    let mut table = Columns::new(&[columns[0], columns[1], "class", "crank passes them"], &["class", "crank passes them"]);
+    let mut table =
+        Columns::new(&[columns[0], columns[1], "class", "crank passes them"], &["class", "crank passes them"]);
     for own in &list {
         let [one, other] = match own.source {
             Source::Dyads(dyads) => dyads.map(|k| (k + 1).to_string()),

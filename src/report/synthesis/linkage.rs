@@ -187,9 +187,12 @@ impl Making {
 
     /// The coupler's origin P is the point that runs through those of the file.
     fn coupler_curve(&mut self, dyad: &Dyad, points: &[[Rational; 2]]) {
-        for (joint, of) in
-            [("A", ["frame", "crank"]), ("B", ["crank", "coupler"]), ("C", ["coupler", "rocker"]), ("D", ["frame", "rocker"])]
-        {
+        for (joint, of) in [
+            ("A", ["frame", "crank"]),
+            ("B", ["crank", "coupler"]),
+            ("C", ["coupler", "rocker"]),
+            ("D", ["frame", "rocker"]),
+        ] {
             self.joint(joint, "R", of, "");
         }
         let points: Vec<[f64; 2]> = points.iter().map(|point| point.each_ref().map(Rational::to_f64)).collect();
@@ -220,7 +223,8 @@ impl Making {
             format!("crank = {{ A = [0, 0], B = {} }}", list(&dyad.real("crank_point"))),
             format!("rocker = {{ D = [0, 0], C = {} }}", list(&dyad.real("rocker_point"))),
         ];
-        let angles = pairs.iter().map(|AnglePair { angles: [(cos, sin), _], .. }| sin.to_f64().atan2(cos.to_f64())).collect();
+        let angles =
+            pairs.iter().map(|AnglePair { angles: [(cos, sin), _], .. }| sin.to_f64().atan2(cos.to_f64())).collect();
         self.input = Some(("A".to_owned(), "angle", angles));
     }
 

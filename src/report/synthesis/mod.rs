@@ -9,9 +9,9 @@ use super::json::number;
 use super::model;
 use super::number::{at_most, digits};
 use super::table::{Columns, paragraph};
+use crate::algebra::number::nearest_f64;
 use crate::catalogue::{SynthesisFile, Task};
 use crate::synthesis::{Answer, Dyad, Mode, Part, Pole, poles};
-use crate::algebra::number::nearest_f64;
 use crate::verdict::Proof;
 use num_complex::Complex;
 use rug::Rational;
@@ -59,7 +59,12 @@ pub fn text(file: &SynthesisFile, answer: &Answer, complex: bool) -> String {
         };
         let columns_of_first = columns(first);
         let names: Vec<&str> = columns_of_first.iter().map(|part| part.name).collect();
-        let header = [&[if matches!(file.task, Task::Motion(..)) { "dyad" } else { "four-bar" }][..], &names, &["multiplicity", "radius"]].concat();
+        let header = [
+            &[if matches!(file.task, Task::Motion(..)) { "dyad" } else { "four-bar" }][..],
+            &names,
+            &["multiplicity", "radius"],
+        ]
+        .concat();
         let mut table = Columns::new(&header, &[]);
         for (id, mode) in &shown {
             let mut row = vec![id.to_string()];

@@ -283,9 +283,8 @@ impl Source {
                 (Variable::Rotation, _, _) => {
                     // The half of the cell in its middle.
                     let origin = 2.0 * from.to_f64().atan();
-                    let own = |bound: Option<&Bound>, end: f64| {
-                        bound.map_or(end, |bound| wrapped(bound.value - origin))
-                    };
+                    let own =
+                        |bound: Option<&Bound>, end: f64| bound.map_or(end, |bound| wrapped(bound.value - origin));
                     let (a, b) = (own(low, -PI), own(high, PI));
                     let [a, b] = [0.75 * a + 0.25 * b, 0.25 * a + 0.75 * b].map(|x| wrapped(origin + x));
                     if a > b {
@@ -297,7 +296,9 @@ impl Source {
                     [0.75 * low.value + 0.25 * high.value, 0.25 * low.value + 0.75 * high.value]
                 }
                 (_, Some(low), None) => [low.value + 0.5 + low.value.abs(), low.value + 1.5 + 2.0 * low.value.abs()],
-                (_, None, Some(high)) => [high.value - 1.5 - 2.0 * high.value.abs(), high.value - 0.5 - high.value.abs()],
+                (_, None, Some(high)) => {
+                    [high.value - 1.5 - 2.0 * high.value.abs(), high.value - 0.5 - high.value.abs()]
+                }
                 (_, None, None) => [0.5, 2.0],
             };
             let s = simplest_between(Rational::from_f64(a)?, Rational::from_f64(b)?);

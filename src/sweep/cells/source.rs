@@ -1,10 +1,10 @@
 //! The source of the closure polynomial in a parameter and an unknown.
 
 use super::subject::Parameter;
+use crate::algebra::drawn;
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
 use crate::catalogue::entry::{Case, Entry};
-use crate::algebra::drawn;
 use crate::derivation::{Equations, Setting, Watch, derive_interpolated, relation_by_bases, variable_name};
 use crate::error::{Error, Result};
 use crate::kinematics::closed_loop::Variable;
@@ -65,7 +65,8 @@ impl Source {
     /// A polynomial in the half tangents of a parameter and an output of which every real root belongs to one real mode, and every real
     /// mode to one of them.
     pub(super) fn of_transfer(polynomial: &Polynomial<Int>, unknown: String) -> Option<Self> {
-        let exact = Exact::of_polynomial(polynomial, Variable::Rotation, Variable::Rotation, polynomial.degree(1) as usize)?;
+        let exact =
+            Exact::of_polynomial(polynomial, Variable::Rotation, Variable::Rotation, polynomial.degree(1) as usize)?;
         Some(Self { exact, unknown, is_probable: false, proof: Proof::Proved })
     }
 
@@ -84,7 +85,8 @@ impl Source {
 
     /// The relation of the first given joint of a linkage, or of a coordinate of a point, and the angle of a body.
     pub(super) fn of_linkage(linkage: &Linkage, given: &[Given], coordinate: Option<&str>) -> Result<Self> {
-        let LinkageRelation { exact, unknown, is_probable, proof, .. } = LinkageRelation::of(linkage, given, coordinate)?;
+        let LinkageRelation { exact, unknown, is_probable, proof, .. } =
+            LinkageRelation::of(linkage, given, coordinate)?;
         Ok(Self { exact, unknown, is_probable, proof })
     }
 }

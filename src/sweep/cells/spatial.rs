@@ -71,7 +71,9 @@ impl SphereCase {
         let SphereLinkage { joints, ground, bodies, .. } = &self.linkage;
         let is_joined = |body: usize| joints.iter().any(|joint| joint.of.contains(&body) && joint.of.contains(ground));
         (0..bodies.len()).filter(|body| body != ground && !is_joined(*body)).all(|body| {
-            let axes = joints.iter().flat_map(|joint| (0..2).filter(|side| joint.of[*side] == body).map(|side| &joint.at[side]));
+            let axes = joints
+                .iter()
+                .flat_map(|joint| (0..2).filter(|side| joint.of[*side] == body).map(|side| &joint.at[side]));
             let axes: Vec<_> = axes.collect();
             axes.windows(2).any(|pair| cross(pair[0], pair[1]).iter().any(|x| *x != 0))
         })
@@ -97,7 +99,8 @@ fn length(joint: &SphereJoint) -> Result<Rational> {
 
 impl Subject for SphereCase {
     fn parameter(&self, name: &str) -> Result<Parameter> {
-        let joints = self.given.iter().filter_map(|one| one.joint).map(|joint| self.linkage.joints[joint].name.as_str());
+        let joints =
+            self.given.iter().filter_map(|one| one.joint).map(|joint| self.linkage.joints[joint].name.as_str());
         let (place, joint) = self.place_of(name).ok_or_else(|| unknown(name, joints))?;
         let length = length(&self.linkage.joints[joint])?;
         let value = half_tangent(&self.linkage, &self.given[place], joint).map(|x| x * length);
@@ -159,7 +162,8 @@ impl SpaceCase {
 impl Subject for SpaceCase {
     fn parameter(&self, name: &str) -> Result<Parameter> {
         let joints = &self.file.linkage.joints;
-        let mut given = self.file.cases[0].given.iter().filter_map(|one| Some((joints[one.joint?].name.as_str(), one.value?)));
+        let mut given =
+            self.file.cases[0].given.iter().filter_map(|one| Some((joints[one.joint?].name.as_str(), one.value?)));
         let found = given.clone().find(|(own, _)| *own == name);
         let (_, value) = found.ok_or_else(|| unknown(name, given.by_ref().map(|(own, _)| own)))?;
         let is_distance = self.file.is_distance(name) == Some(true);

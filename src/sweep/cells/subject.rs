@@ -159,7 +159,8 @@ impl Subject for LinkageCase {
         }
         let all = self.coordinates()?;
         let found = all.iter().find(|one| one.name(&self.linkage) == name).ok_or_else(|| {
-            let joints = self.given.iter().filter_map(Given::joint).map(|joint| self.linkage.joints[joint].name.clone());
+            let joints =
+                self.given.iter().filter_map(Given::joint).map(|joint| self.linkage.joints[joint].name.clone());
             let known: Vec<String> = joints.chain(all.iter().map(|one| one.name(&self.linkage))).take(24).collect();
             Error::Invalid(format!("found the parameter {name}, expected one of {}", known.join(", ")))
         })?;

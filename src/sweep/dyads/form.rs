@@ -107,7 +107,8 @@ impl Form {
         let largest = |k: usize| function.terms().map(|(e, _)| power(&e, k).iter().sum::<usize>()).max().unwrap_or(0);
         let highest: Vec<usize> = (0..counts.len()).map(largest).collect();
         // With x = tan(q/2)/l and n = 1 + l^2 x^2, cos q = (1 - l^2 x^2)/n and sin q/l = 2x/n; q begins where x is `from`.
-        let factors: Vec<[Polynomial<Rational>; 3]> = counts.iter().enumerate().map(|(k, c)| c.turned(k)).collect::<Option<_>>()?;
+        let factors: Vec<[Polynomial<Rational>; 3]> =
+            counts.iter().enumerate().map(|(k, c)| c.turned(k)).collect::<Option<_>>()?;
         let mut sum: Polynomial<Rational> = Polynomial::zero();
         for (exponents, c) in function.terms() {
             let mut product = Polynomial::constant(c.clone());

@@ -8,6 +8,8 @@ mod form;
 
 use super::assemblies::{AssemblySample, Link};
 use super::linking::Linking;
+use super::sphere::half_tangent;
+use crate::algebra::number::{Angle, HalfTangent};
 use crate::algebra::ring::Ring;
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::linkage::{Given, Linkage, Pair};
@@ -16,8 +18,6 @@ use crate::linkage::dyads::Dyads;
 use crate::linkage::laurent::Laurent;
 use crate::linkage::sphere::{SphereDyads, SphereMode};
 use crate::verdict::Code;
-use super::sphere::half_tangent;
-use crate::algebra::number::{Angle, HalfTangent};
 use critical::{Count, Counted, Critical, Criticals, Reading};
 use form::Form;
 use rug::Rational;
@@ -163,7 +163,11 @@ impl<M> Proof<M> {
 
     /// Returns the dyad whose sign changes on all branches that pass a critical input, if one does; the reason where it is not
     /// decided which pass.
-    fn crossed(&self, critical: &Critical, [from, to]: &[BTreeSet<&Signs>; 2]) -> std::result::Result<Option<usize>, Code> {
+    fn crossed(
+        &self,
+        critical: &Critical,
+        [from, to]: &[BTreeSet<&Signs>; 2],
+    ) -> std::result::Result<Option<usize>, Code> {
         let (dyad, multiplicity) = critical.dyad.ok_or(Code::SingularNotDecided)?;
         let changed: BTreeSet<&Signs> = from.symmetric_difference(to).copied().collect();
         // The assemblies of the dyads below, at which this one opens or closes.

@@ -100,7 +100,10 @@ fn sheets(output: &Output, curve: &PlaneCurve, s: &Rational, values: &[f64]) -> 
     let sheet = |(t, value): (Option<Rational>, f64)| {
         let distance = |mode: &usize| apart(output.kind, values[*mode], value);
         let mode = (0..values.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-        let second = (0..values.len()).filter(|other| *other != mode).map(|other| distance(&other)).fold(f64::INFINITY, f64::min);
+        let second = (0..values.len())
+            .filter(|other| *other != mode)
+            .map(|other| distance(&other))
+            .fold(f64::INFINITY, f64::min);
         if !(second > CLEAR * distance(&mode)) {
             return None;
         }

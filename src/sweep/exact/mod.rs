@@ -24,9 +24,9 @@ pub(super) use plane_curve::{PlaneCurve, sign_changes};
 use super::bridge::{Bridge, mode_at};
 use super::sample::Sample;
 use super::track::{Destination, Fold, follow};
-use crate::assembly::wrapped;
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
+use crate::assembly::wrapped;
 use crate::catalogue::entry::{Case, Entry};
 use crate::derivation::Place;
 use crate::kinematics::closed_loop::{Layout, Variable};
@@ -36,9 +36,9 @@ use crate::verdict::Code;
 use crossing::Piece;
 use plane_curve::{Integral, S, T};
 use rug::Rational;
-use wrist::Wrist;
 use std::f64::consts::PI;
 use std::sync::OnceLock;
+use wrist::Wrist;
 
 /// Angles of the input are counted from one of these half tangents, so that none critical is half a turn from there.
 /// Any numbers serve that are unlikely to be special.
@@ -128,7 +128,12 @@ impl Exact {
 
     /// Returns the output of a closure polynomial in variable 0, which runs, and the unknown 1. Half tangents of angles are
     /// counted from 0; `full` is the general degree in the unknown, half turns included.
-    pub fn of_polynomial(polynomial: &Polynomial<Int>, moved: Variable, unknown: Variable, full: usize) -> Option<Self> {
+    pub fn of_polynomial(
+        polynomial: &Polynomial<Int>,
+        moved: Variable,
+        unknown: Variable,
+        full: usize,
+    ) -> Option<Self> {
         let turns = moved == Variable::Rotation;
         let degree = polynomial.degree(S) as usize;
         for (numerator, denominator) in OFFSETS {

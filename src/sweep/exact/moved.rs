@@ -48,9 +48,7 @@ impl Running<'_> {
     pub fn closing(&self) -> Option<Motion<CircleFraction>> {
         let case = self.moved.case;
         match (self.moved.place, self.moved.kind) {
-            (Place::Input, Variable::Rotation) => {
-                Some(Motion::rotation_z(self.turn.0.clone(), self.turn.1.clone()))
-            }
+            (Place::Input, Variable::Rotation) => Some(Motion::rotation_z(self.turn.0.clone(), self.turn.1.clone())),
             (Place::Input, Variable::Translation) => Some(Motion::translation_z(CircleFraction::variable())),
             (Place::Coordinate(k), _) => {
                 let mut pose = case.pose.as_ref()?.exact.map(CircleFraction::from_rational)?;

@@ -35,7 +35,8 @@ impl Node<'_> {
             2 => None,
             _ => Some(self.is_closed_inverted()?),
         };
-        let [first, second] = [0, 1].map(|side| is_inverted.map_or_else(|| self.signs(side), |is| self.order(side, is)));
+        let [first, second] =
+            [0, 1].map(|side| is_inverted.map_or_else(|| self.signs(side), |is| self.order(side, is)));
         let (first, second) = (first?, second?);
         let is_changed = order % 4 == 2;
         let is_next = |k: usize, j: usize| (first[k] == second[j]) != is_changed;

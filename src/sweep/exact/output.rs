@@ -279,7 +279,9 @@ fn criticals(
     }
     add(&content.square_free_decomposition(), &|_| Event::Locked);
     // Two that are the same in f64 are told apart by their intervals.
-    let before = |a: &Critical, b: &Critical| a.value.total_cmp(&b.value).then_with(|| a.root.bounds().0.cmp(&b.root.bounds().0));
+    let before = |a: &Critical, b: &Critical| {
+        a.value.total_cmp(&b.value).then_with(|| a.root.bounds().0.cmp(&b.root.bounds().0))
+    };
     sort::by(&mut criticals, before);
     criticals
 }

@@ -170,7 +170,8 @@ impl PlaneCurve {
         if h.is_zero() {
             return self.clone();
         }
-        let [over, under] = [[h.clone(), Rational::from(1)], [Rational::from(1), -h.clone()]].map(|c| Univariate::new(c.to_vec()));
+        let [over, under] =
+            [[h.clone(), Rational::from(1)], [Rational::from(1), -h.clone()]].map(|c| Univariate::new(c.to_vec()));
         let counted = |row: &Univariate<Integer>| {
             let mut power = Univariate::one();
             let mut sum: Univariate<Rational> = Univariate::zero();

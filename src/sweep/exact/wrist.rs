@@ -42,9 +42,8 @@ impl Wrist {
         let open = chain.open_loop::<Rational>(layout).ok()?;
         let indices = layout.joint_variables();
         // No number at the middle of the wrist is on its way: the frames of all three axes have one origin.
-        let is_square = |link: &Motion<Rational>| {
-            link.translation.iter().all(Ring::is_zero) && link.rotation[2][2].is_zero()
-        };
+        let is_square =
+            |link: &Motion<Rational>| link.translation.iter().all(Ring::is_zero) && link.rotation[2][2].is_zero();
         (0..4).find_map(|first| {
             let turn = (first..first + 3).all(|k| open.variables[k] == Variable::Rotation);
             let is_wrist = turn && open.constants[first..first + 2].iter().all(is_square);

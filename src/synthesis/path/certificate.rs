@@ -101,7 +101,10 @@ impl Data {
             let mut reach = step[i];
             for k in 0..PLACES {
                 let unit = if i == k { Complex::<Interval>::one() } else { Complex::<Interval>::zero() };
-                let off = row.iter().zip(&derivatives).fold(unit, |sum, (a, slope)| Ring::sub(&sum, &Ring::mul(a, &slope[k])));
+                let off = row
+                    .iter()
+                    .zip(&derivatives)
+                    .fold(unit, |sum, (a, slope)| Ring::sub(&sum, &Ring::mul(a, &slope[k])));
                 reach += (off.re.magnitude() + off.im.magnitude()) * radii[k] * MARGIN;
             }
             // Also false for NaN.
@@ -109,7 +112,8 @@ impl Data {
                 return None;
             }
         }
-        let is_complex = (0..4).any(|k| (z[2 * k] - z[2 * k + 1].conj()).norm() > MARGIN * (radii[2 * k] + radii[2 * k + 1]));
+        let is_complex =
+            (0..4).any(|k| (z[2 * k] - z[2 * k + 1].conj()).norm() > MARGIN * (radii[2 * k] + radii[2 * k + 1]));
         let discs = std::array::from_fn(|k| disc(z[k], radii[k]));
         // The conjugate of a real zero's neighbour in discs that are their own conjugates is a zero in them: they are one.
         (is_real || is_complex).then_some(Certified { discs, is_real })
@@ -140,17 +144,20 @@ impl Certified {
     /// numbers in the discs is such that the conditions hold without a linkage.
     pub fn is_linkage(&self, data: &Data) -> bool {
         let [x, x_star, a, a_star, y, y_star, b, b_star] = &self.discs;
-        let lengths = [(x, a), (x_star, a_star), (y, b), (y_star, b_star), (x, y), (x_star, y_star), (a, b), (a_star, b_star)];
+        let lengths =
+            [(x, a), (x_star, a_star), (y, b), (y_star, b_star), (x, y), (x_star, y_star), (a, b), (a_star, b_star)];
         let v = with_one(self.discs.clone());
         let turns = data.discs.iter().flat_map(|[d, e]| super::curve::turn(&v, d, e));
-        lengths.iter().all(|(one, other)| one.sub(other).is_not_zero()) && turns.into_iter().all(|part| part.is_not_zero())
+        lengths.iter().all(|(one, other)| one.sub(other).is_not_zero())
+            && turns.into_iter().all(|part| part.is_not_zero())
     }
 }
 
 /// Returns whether all classes with these numbers are proved to be different: of every two some number is.
 pub fn are_distinct(classes: &[[Disc; 3]]) -> bool {
     let bounds = |class: &[Disc; 3]| {
-        let (middle, radius) = (class[0].re.to_f64(), MARGIN * class[0].radius().to_f64() + LEAST * class[0].re.to_f64().abs());
+        let (middle, radius) =
+            (class[0].re.to_f64(), MARGIN * class[0].radius().to_f64() + LEAST * class[0].re.to_f64().abs());
         [middle - radius, middle + radius]
     };
     let mut sorted: Vec<([f64; 2], &[Disc; 3])> = classes.iter().map(|class| (bounds(class), class)).collect();

@@ -52,13 +52,14 @@ pub fn distinct(four_bars: impl IntoIterator<Item = [Complex<f64>; UNKNOWNS]>) -
         let numbers = numbers(&z, Field::inverse).filter(|_| has_coupler)?;
         numbers.iter().all(|z| z.is_finite()).then_some((v, numbers))
     };
-    let mut sorted: Vec<(usize, Numbered)> =
-        four_bars.into_iter().filter_map(with_numbers).enumerate().collect();
+    let mut sorted: Vec<(usize, Numbered)> = four_bars.into_iter().filter_map(with_numbers).enumerate().collect();
     sort::by(&mut sorted, |(_, (_, one)), (_, (_, other))| one[0].re.total_cmp(&other[0].re));
     let mut is_new = vec![true; sorted.len()];
     for (k, (place, (_, own))) in sorted.iter().enumerate() {
         let size = own.each_ref().map(|z| CLOSE * (1.0 + z.norm()));
-        for (other_place, (_, other)) in sorted[k + 1..].iter().take_while(|(_, (_, other))| other[0].re - own[0].re < size[0]) {
+        for (other_place, (_, other)) in
+            sorted[k + 1..].iter().take_while(|(_, (_, other))| other[0].re - own[0].re < size[0])
+        {
             if (0..3).all(|i| (own[i] - other[i]).norm() < size[i]) {
                 is_new[*place.max(other_place)] = false;
             }

@@ -91,16 +91,8 @@ pub fn slopes<R: Ring>(v: &[R; UNKNOWNS], d: &R, e: &R) -> Slopes<R> {
     let (by_u, by_w) = (t.add(&h.mul(w)), t.add(&h.mul(u)));
     let less = |x: &R, y: &R, z: &R, s: &R| x.mul(y).sub(&z.mul(s));
     let by_parts = [
-        [
-            less(&by_t, &two.b, &by_w, &two.k),
-            less(&by_u, &two.k, &by_t, &two.a),
-            less(&by_w, &two.a, &by_u, &two.b),
-        ],
-        [
-            less(&by_w, &one.k, &by_t, &one.b),
-            less(&by_t, &one.a, &by_u, &one.k),
-            less(&by_u, &one.b, &by_w, &one.a),
-        ],
+        [less(&by_t, &two.b, &by_w, &two.k), less(&by_u, &two.k, &by_t, &two.a), less(&by_w, &two.a, &by_u, &two.b)],
+        [less(&by_w, &one.k, &by_t, &one.b), less(&by_t, &one.a, &by_u, &one.k), less(&by_u, &one.b, &by_w, &one.a)],
     ];
     let mut gradient: [R; UNKNOWNS] = std::array::from_fn(|_| R::zero());
     let mut drift = [R::zero(), R::zero()];

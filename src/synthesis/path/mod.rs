@@ -58,9 +58,11 @@ impl Problem {
     /// The problem of nine points of which some differ.
     fn of(points: &[[Rational; 2]]) -> Option<Self> {
         let (origin, others) = points.split_first()?;
-        let ways: Vec<[Rational; 2]> = others.iter().map(|p| [0, 1].map(|k| Rational::from(&p[k] - &origin[k]))).collect();
+        let ways: Vec<[Rational; 2]> =
+            others.iter().map(|p| [0, 1].map(|k| Rational::from(&p[k] - &origin[k]))).collect();
         // A power of two: the points keep their digits. First the size of the largest number, which may be none of f64.
-        let bits = |q: &Rational| q.numer().significant_bits().cast_signed() - q.denom().significant_bits().cast_signed();
+        let bits =
+            |q: &Rational| q.numer().significant_bits().cast_signed() - q.denom().significant_bits().cast_signed();
         let largest = Rational::from(1) << ways.iter().flatten().filter(|q| **q != 0).map(bits).max()?;
         let squares = ways.iter().flatten().map(|q| Rational::from(q / &largest).to_f64().powi(2)).sum::<f64>();
         #[expect(clippy::cast_possible_truncation, reason = "the root is between 1/8 and 4")]
@@ -96,7 +98,9 @@ impl Problem {
     fn modes(&self, certified: &[Certified]) -> Vec<Mode> {
         let mut modes: Vec<Mode> =
             certified.par_iter().filter_map(|own| answer::mode(own, &self.origin, &self.unit)).collect();
-        sort::by(&mut modes, |one, other| other.is_real.cmp(&one.is_real).then_with(|| by_numbers(&one.dyad, &other.dyad)));
+        sort::by(&mut modes, |one, other| {
+            other.is_real.cmp(&one.is_real).then_with(|| by_numbers(&one.dyad, &other.dyad))
+        });
         modes
     }
 }
@@ -112,11 +116,8 @@ pub(super) fn synthesize(file: &SynthesisFile, points: &[[Rational; 2]]) -> Answ
     let classes: Option<Vec<_>> = certified.iter().map(|own| class::numbers(&own.discs, Disc::inverse)).collect();
     let modes = problem.modes(&certified);
     let is_list = classes.is_some_and(|classes| are_distinct(&classes)) && modes.len() == certified.len();
-    let trace = if is_list && modes.len() == GENERAL {
-        straightest(&problem.data.places, &found, drawn::seed())
-    } else {
-        None
-    };
+    let trace =
+        if is_list && modes.len() == GENERAL { straightest(&problem.data.places, &found, drawn::seed()) } else { None };
     let mut verdict = judged(&modes, found.len(), is_list, trace);
     verdict.reason += &format!("; {runs} {}", if runs == 1 { "run of paths" } else { "runs of paths" });
     if !file.exact {
@@ -184,8 +185,14 @@ fn family(points: &[[Rational; 2]]) -> Answer {
         "nine points leave finitely many four-bars, and every point fewer one freedom more: a family of dimension {dimension}, complex \
          members counted; at the member shown the conditions are proved to be independent"
     );
-    let verdict =
-        Verdict { status: Status::SelfMotion, code: Code::SelfMotion, self_motion: dimension, certified, reason, ..undecided().verdict };
+    let verdict = Verdict {
+        status: Status::SelfMotion,
+        code: Code::SelfMotion,
+        self_motion: dimension,
+        certified,
+        reason,
+        ..undecided().verdict
+    };
     Answer { verdict, families: vec![Family { dimension, sample }], ..undecided() }
 }
 

@@ -30,8 +30,10 @@ pub fn start() -> &'static Start {
 
 impl Start {
     fn of(bytes: &[u8]) -> Self {
-        let numbers: Vec<f64> =
-            bytes.chunks_exact(4).map(|four| f64::from(f32::from_le_bytes([four[0], four[1], four[2], four[3]]))).collect();
+        let numbers: Vec<f64> = bytes
+            .chunks_exact(4)
+            .map(|four| f64::from(f32::from_le_bytes([four[0], four[1], four[2], four[3]])))
+            .collect();
         let complex: Vec<Complex<f64>> = numbers.chunks_exact(2).map(|pair| Complex::new(pair[0], pair[1])).collect();
         let (first, rest) = complex.split_at(2 * PLACES);
         let places: Places = std::array::from_fn(|j| [first[2 * j], first[2 * j + 1]]);
@@ -81,7 +83,9 @@ mod tests {
         // A four-bar with numbers drawn, and points where its coupler has turns drawn: of the two equations of the links, which hold d e, the
         // difference is linear.
         let four_bar: FourBar =
-            std::array::from_fn(|k| if k == 0 { Complex::from(1.0) } else { turn(random) * random.random_range(0.2..1.0) });
+            std::array::from_fn(
+                |k| if k == 0 { Complex::from(1.0) } else { turn(random) * random.random_range(0.2..1.0) },
+            );
         let first: Places = std::array::from_fn(|_| {
             let t = turn(random) * random.random_range(0.5..2.0);
             let link = |[x, x_star, a, a_star]: [Complex<f64>; 4]| {

@@ -44,8 +44,10 @@ fn legs(numbers: &[Complex<f64>]) -> Legs {
 
 impl Start {
     fn of(bytes: &[u8]) -> Self {
-        let numbers: Vec<f64> =
-            bytes.chunks_exact(4).map(|four| f64::from(f32::from_le_bytes([four[0], four[1], four[2], four[3]]))).collect();
+        let numbers: Vec<f64> = bytes
+            .chunks_exact(4)
+            .map(|four| f64::from(f32::from_le_bytes([four[0], four[1], four[2], four[3]])))
+            .collect();
         let complex: Vec<Complex<f64>> = numbers.chunks_exact(2).map(|pair| Complex::new(pair[0], pair[1])).collect();
         let (first, rest) = complex.split_at(3 * NUMBERS);
         let legs = legs(first);
@@ -102,14 +104,16 @@ mod tests {
         let short = |z: Complex<f64>| Complex::new(f64::from(z.re as f32), f64::from(z.im as f32));
         let turn = |random: &mut ChaCha8Rng| Complex::from_polar(1.0, random.random_range(0.0..std::f64::consts::TAU));
         let draw = |random: &mut ChaCha8Rng| short(turn(random) * random.random_range(0.4..1.2));
-        let general = |random: &mut ChaCha8Rng| -> Vec<Complex<f64>> { (0..3 * NUMBERS).map(|_| draw(random)).collect() };
+        let general =
+            |random: &mut ChaCha8Rng| -> Vec<Complex<f64>> { (0..3 * NUMBERS).map(|_| draw(random)).collect() };
         // A pose, and legs through it: the axis in the base is made perpendicular to the product of the other one and the leg.
         let mut first = general(random);
         let [scalar, a, b, c] = [(); 4].map(|()| draw(random));
         let x = Quaternion { scalar, vector: [a, b, c] };
         let place = [(); 3].map(|()| draw(random));
         let y = Quaternion { scalar: Complex::from(0.0), vector: place }.mul(&x);
-        let pose: Pose = [x.scalar, x.vector[0], x.vector[1], x.vector[2], y.scalar, y.vector[0], y.vector[1], y.vector[2]];
+        let pose: Pose =
+            [x.scalar, x.vector[0], x.vector[1], x.vector[2], y.scalar, y.vector[0], y.vector[1], y.vector[2]];
         for own in first.chunks_mut(NUMBERS) {
             own[12] = Complex::from(0.0);
             let probe = leg(own);
@@ -147,7 +151,8 @@ mod tests {
         if std::env::var_os("LOOPROOT_BLESS").is_some() {
             let numbers = numbers[0].iter().chain(known[0].iter().flatten());
             let bytes: Vec<u8> = numbers.flat_map(|z| [z.re as f32, z.im as f32]).flat_map(f32::to_le_bytes).collect();
-            std::fs::write(concat!(env!("CARGO_MANIFEST_DIR"), "/src/linkage/space/universal/start.bin"), bytes).unwrap();
+            std::fs::write(concat!(env!("CARGO_MANIFEST_DIR"), "/src/linkage/space/universal/start.bin"), bytes)
+                .unwrap();
         }
     }
 }
