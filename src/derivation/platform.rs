@@ -184,10 +184,13 @@ pub(super) fn derive(geometry: &Platform<Number>, case: &Case) -> Result<Derivat
     } else {
         without = Some(match degree {
             Some(PlatformDegree::Infinite { dimension }) => not_in_rings(&platform, &squares, dimension),
-            Some(PlatformDegree::Finite { poses: 0, .. }) => "no pose, real or complex".to_owned(),
-            Some(PlatformDegree::Finite { poses, .. }) => {
-                format!("{poses} poses with multiplicity, but no coordinate in which they have a polynomial")
+            Some(PlatformDegree::Finite { poses: 0, .. }) => {
+                "no pose, real or complex, as counted modulo a prime; `looproot solve` proves it where it can"
+                    .to_owned()
             }
+            Some(PlatformDegree::Finite { poses, .. }) => format!(
+                "{poses} poses with multiplicity, as counted modulo a prime, but no coordinate in which they have a polynomial"
+            ),
             None => "the number of poses is not known".to_owned(),
         });
     }
