@@ -24,7 +24,7 @@ const MOST_POINTS: usize = 80;
 #[derive(Clone, Debug)]
 pub enum PoseBasis {
     /// There are at most so many poses, complex ones included, counted with multiplicity. This is proved.
-    AtMost(PosePoints),
+    AtMost(Box<PosePoints>),
     /// Modulo a prime drawn at run time there are infinitely many.
     InfiniteModuloPrime,
 }
@@ -68,7 +68,7 @@ pub fn pose_basis(platform: &Platform<Rational>, squares: &[Rational; 6]) -> Opt
     }
     let basis = basis?;
     let count = basis.count(MOST_POINTS)? / 2;
-    Some(PoseBasis::AtMost(PosePoints { count, basis, equations }))
+    Some(PoseBasis::AtMost(Box::new(PosePoints { count, basis, equations })))
 }
 
 impl Equations {
