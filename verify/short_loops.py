@@ -25,7 +25,7 @@ def lengthened(system):
 
 
 def own_modes(system, modes, is_own_bound, others):
-    """Those of the loop itself among the modes of the longer one: as many as the points of the second item, if there is one."""
+    """Returns the modes of the loop itself among those of the longer one: there are as many as points of the second item, if there is one."""
     points = Points(system, others[0]) if others else None
     if is_own_bound and points:
         own = [mode for mode in modes if is_one_in(points, system, mode)]
