@@ -223,9 +223,8 @@ fn planted_assemblies_of_geared_five_bars_are_listed() {
     assert!(met >= 18 && open == 0, "{met} met, {fewer} fewer, {open} open");
 }
 
-/// Three hundred members: a minute.
+/// Three hundred members.
 #[test]
-#[ignore = "takes a minute: cargo test --test library gears:: -- --ignored"]
 fn three_hundred_geared_five_bars() {
     let [met, fewer, open] = planted_are_listed(300);
     println!("geared five-bars: {met} with the count of the torus, {fewer} with fewer, {open} open");

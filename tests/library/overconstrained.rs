@@ -40,7 +40,6 @@ fn families_of_four_and_five_joints_have_closure_polynomials() {
 }
 
 #[test]
-#[ignore = "takes a minute: cargo test --test library overconstrained:: -- --ignored"]
 fn families_of_six_joints_have_closure_polynomials() {
     for name in [
         "bricard_line_symmetric_a",

@@ -82,7 +82,6 @@ fn ways_agree_on_a_few_random_loops() {
 }
 
 #[test]
-#[ignore = "takes a minute or more: cargo test --test library ways:: -- --ignored"]
 fn ways_agree_on_fifty_random_loops() {
     random(50);
 }
