@@ -4,10 +4,9 @@
 //
 // Without names twenty entries of the library are compared, one of every sort; with --all every one of those kinds.
 import { spawnSync } from 'node:child_process';
-import { closeSync, mkdtempSync, openSync, readdirSync, readFileSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readdirSync, readFileSync } from 'node:fs';
 import { basename, join } from 'node:path';
-import { WASI } from 'node:wasi';
+import { runInThisContext } from 'node:vm';
 
 /** What is asked of the entries of a folder. */
 const VERBS = {
@@ -21,8 +20,6 @@ const QUICK = [
 /** Angles and metres: rounding differs, since lanes and compilers do. */
 const NEAR = 1e-8;
 
-/** Entries in one process: Node 20 was seen to end with a segmentation fault after some hundred instances of a module. */
-const BATCH = 20;
 /** Entries that take longer are compared once. */
 const KEPT_MS = 3000;
 
@@ -32,7 +29,6 @@ if (!native || !file) {
   process.exit(1);
 }
 const root = new URL('..', import.meta.url).pathname;
-const folder = mkdtempSync(join(tmpdir(), 'looproot-'));
 const module = await WebAssembly.compile(readFileSync(file));
 
 function nativeRun(args) {
@@ -40,47 +36,14 @@ function nativeRun(args) {
   return { code: status, stdout, stderr };
 }
 
-/** Runs commands one after the other in one program, as a page does: the first begins it. */
+/** What a page runs: its worker, without a page. Node's own WASI ends with a segmentation fault where instances are freed. */
+globalThis.self = {};
+runInThisContext(readFileSync(join(root, 'assets/viewer/worker.js'), 'utf8'), { filename: 'worker.js' });
+
+/** Runs commands one after the other in one program, as a page does. */
 async function wasmRuns(commands) {
-  const [out, err] = ['out', 'err'].map((name) => join(folder, name));
-  const [stdout, stderr] = [out, err].map((path) => openSync(path, 'w'));
-  const args = ['looproot'];
-  const wasi = new WASI({ version: 'preview1', args, env: {}, stdout, stderr, returnOnExit: true });
-  const imports = wasi.getImportObject();
-  // The arguments of the command that runs, in the place of those of the process.
-  const text = () => args.map((word) => new TextEncoder().encode(`${word}\0`));
-  const memory = () => new DataView(instance.exports.memory.buffer);
-  imports.wasi_snapshot_preview1.args_sizes_get = (count, size) => {
-    memory().setUint32(count, args.length, true);
-    memory().setUint32(size, text().reduce((sum, word) => sum + word.length, 0), true);
-    return 0;
-  };
-  imports.wasi_snapshot_preview1.args_get = (list, at) => {
-    let next = at;
-    text().forEach((word, k) => {
-      memory().setUint32(list + 4 * k, next, true);
-      new Uint8Array(memory().buffer).set(word, next);
-      next += word.length;
-    });
-    return 0;
-  };
-  const instance = await WebAssembly.instantiate(module, imports);
-  const ended = [];
-  let [printed, said] = [0, 0];
-  for (const [k, command] of commands.entries()) {
-    args.splice(1, args.length, ...command);
-    let code;
-    try {
-      code = k ? instance.exports.again() : wasi.start(instance);
-    } catch (error) {
-      code = String(error);
-    }
-    const [whole, told] = [out, err].map((path) => readFileSync(path));
-    ended.push({ code, stdout: whole.subarray(printed).toString(), stderr: told.subarray(said).toString() });
-    [printed, said] = [whole.length, told.length];
-  }
-  [stdout, stderr].forEach(closeSync);
-  return ended;
+  const program = await begun(module);
+  return commands.map((command) => run(program, 'again', command, {}));
 }
 
 /** How far two values of a variable are apart; angles as points of the circle. */
@@ -131,27 +94,10 @@ function difference(own, other) {
   return null;
 }
 
-/** Compares entries in processes of their own; those of a process that a signal ended are compared one by one. */
-function inBatches(names) {
-  let failed = 0;
-  const compare = (some) => {
-    const { status, signal, stdout } = spawnSync(process.execPath, ['--no-warnings', process.argv[1], native, file, ...some], { encoding: 'utf8' });
-    process.stdout.write(stdout);
-    if (signal && some.length > 1) some.forEach((name) => compare([name]));
-    else if (status !== 0) failed += 1;
-    if (signal && some.length === 1) console.log(`${some[0]}: ended by ${signal}`);
-  };
-  for (let k = 0; k < names.length; k += BATCH) compare(names.slice(k, k + BATCH));
-  rmSync(folder, { recursive: true });
-  console.log(`${names.length} entries, ${failed} batches failed`);
-  return failed ? 1 : 0;
-}
-
 const entries = Object.keys(VERBS).flatMap((kind) => readdirSync(join(root, 'equations', kind))
   .filter((name) => name.endsWith('.toml')).map((name) => [kind, basename(name, '.toml')]));
-if (wanted.includes('--all')) process.exit(inBatches(entries.map((entry) => entry.join('/'))));
 const named = new Set(wanted.length ? wanted : QUICK);
-const chosen = entries.filter(([kind, name]) => named.has(name) || named.has(`${kind}/${name}`));
+const chosen = entries.filter(([kind, name]) => wanted.includes('--all') || named.has(name) || named.has(`${kind}/${name}`));
 if (!wanted.length) {
   // Two further ones of every kind: the first and the last by name.
   for (const kind of Object.keys(VERBS)) {
@@ -159,7 +105,7 @@ if (!wanted.length) {
     for (const one of [own[0], own[own.length - 1]]) if (chosen.length < 20 && !chosen.includes(one)) chosen.push(one);
   }
 }
-const begun = performance.now();
+const start = performance.now();
 let [failed, inWasm, inNative] = [0, 0, 0];
 for (const [kind, name] of chosen) {
   const [verb, ...options] = VERBS[kind];
@@ -174,7 +120,7 @@ for (const [kind, name] of chosen) {
   // With a seed nothing is kept. Without one the third command finds what the second has prepared.
   if (!found && verb === 'solve' && performance.now() - second < KEPT_MS) {
     const plain = args.slice(0, -2);
-    const [, again, kept] = await wasmRuns([['--version'], plain, plain]);
+    const [again, kept] = await wasmRuns([plain, plain]);
     found = difference(again, other) || difference(kept, other);
     if (found) found += ', in the program of another command';
   }
@@ -183,7 +129,6 @@ for (const [kind, name] of chosen) {
     console.log(`${kind}/${name}: ${found}`);
   }
 }
-rmSync(folder, { recursive: true });
-console.log(`${chosen.length} entries in ${((performance.now() - begun) / 1000).toFixed(1)} s: WebAssembly ${(inWasm / 1000).toFixed(1)} s, native ${(inNative / 1000).toFixed(1)} s`);
+console.log(`${chosen.length} entries in ${((performance.now() - start) / 1000).toFixed(1)} s: WebAssembly ${(inWasm / 1000).toFixed(1)} s, native ${(inNative / 1000).toFixed(1)} s`);
 console.log(`${chosen.length - failed} passed, ${failed} failed`);
 process.exit(failed || !chosen.length ? 1 : 0);
