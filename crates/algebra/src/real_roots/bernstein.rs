@@ -7,12 +7,16 @@
 use super::cell::Cell;
 use super::evaluate::{length, shifted};
 use super::fixed::Wide;
+use super::rough;
+use pulp::Arch;
 use rug::Integer;
 
 /// The bits that the coefficients of the 256-bit expansion have before the binomial sums lose some.
 const WIDE_BITS: i64 = 252;
 /// The bits at least of the largest coefficient of an expansion in big integers.
 const FRESH_BITS: i64 = 160;
+/// The bits that the largest coefficient of an expansion in f64 has beyond its error; fewer would not last for many halvings.
+const ROUGH_BITS: u32 = 24;
 /// The error of an expansion that no halving has touched.
 const FRESH_ERROR: u64 = 3;
 
@@ -26,16 +30,20 @@ pub(super) struct Source {
     weights: Vec<Integer>,
     /// The leading bits of coefficient times weight, and the power of two left out.
     leading: Vec<(Wide, i64)>,
+    /// The leading bits of the coefficients, and the powers of two left out.
+    floats: Vec<(f64, i64)>,
     /// The length in bits of l, and of n + 1.
     weight_bits: i64,
     count_bits: i64,
 }
 
-/// Bernstein coefficients on a cell, each with an error of at most `error` units.
+/// Bernstein coefficients on a cell, each with an error of at most `error`.
 #[derive(Clone)]
-pub(super) struct Expansion {
-    pub(super) coefficients: Vec<Wide>,
-    pub(super) error: u64,
+pub(super) enum Expansion {
+    /// In fixed point; the error is in units.
+    Wide { coefficients: Vec<Wide>, error: u64 },
+    /// In f64.
+    Rough { coefficients: Vec<f64>, error: f64 },
 }
 
 impl Source {
@@ -55,6 +63,7 @@ impl Source {
         });
         Self {
             leading: leading.collect(),
+            floats: coefficients.iter().map(rough::leading).collect(),
             lengths: coefficients.iter().map(|c| (*c != 0).then(|| length(c))).collect(),
             weight_bits: length(&common),
             count_bits: length(&Integer::from(n + 1)),
@@ -73,6 +82,7 @@ impl Source {
             lengths: self.lengths.clone(),
             weights: self.weights.clone(),
             leading: self.leading.iter().enumerate().map(turned).collect(),
+            floats: self.floats.iter().enumerate().map(|(i, &(m, x))| (if odd(i) { -m } else { m }, x)).collect(),
             ..*self
         }
     }
@@ -112,7 +122,7 @@ impl Source {
             *b = b.shift(-self.degree_bits());
         }
         // Each term is wrong by less than 2, their sum by less than 2^(n+1), and that divided by 2^n and rounded by less than 3.
-        Expansion { coefficients: b, error: FRESH_ERROR }
+        Expansion::Wide { coefficients: b, error: FRESH_ERROR }
     }
 
     /// Returns the Bernstein coefficients on a cell right of 0, wrong by less than `FRESH_ERROR` whatever the degree, such that the
@@ -200,45 +210,99 @@ impl Source {
                 return expansion;
             }
         }
+        let reach = self.reach(cell.exponent + length(&cell.numerator));
+        let expansion = rough::expand(&self.floats, reach, cell);
+        if expansion.stands_out(ROUGH_BITS) {
+            return expansion;
+        }
         let b = self.expand_long(cell, FRESH_BITS, bits);
         let excess = b.iter().map(length).max().unwrap_or(0) - WIDE_BITS;
         let coefficients = b.iter().map(|b| Wide::new(&shifted(b, -excess.max(0)))).collect();
-        Expansion { coefficients, error: FRESH_ERROR }
+        Expansion::Wide { coefficients, error: FRESH_ERROR }
     }
+}
+
+/// Makes the coefficients those of the right half; returns those of the left half.
+#[inline(always)]
+fn halves<C: Copy>(b: &mut [C], average: impl Fn(&mut C, &C)) -> Vec<C> {
+    let mut left = Vec::with_capacity(b.len());
+    left.push(b[0]);
+    for end in (1..b.len()).rev() {
+        for j in 0..end {
+            let (head, tail) = b.split_at_mut(j + 1);
+            average(&mut head[j], &tail[0]);
+        }
+        left.push(b[0]);
+    }
+    left
 }
 
 impl Expansion {
     /// Becomes the expansion on the right half; returns the one on the left half.
     pub(super) fn halve(&mut self) -> Self {
-        let b = &mut self.coefficients;
-        let mut left = Vec::with_capacity(b.len());
-        left.push(b[0]);
-        for end in (1..b.len()).rev() {
-            for j in 0..end {
-                let (head, tail) = b.split_at_mut(j + 1);
-                head[j].average(&tail[0]);
+        match self {
+            Self::Wide { coefficients, error } => {
+                let left = halves(coefficients, Wide::average);
+                // Each of n averages in a row rounds down by at most a half.
+                *error += left.len() as u64 / 2 + 1;
+                Self::Wide { coefficients: left, error: *error }
             }
-            left.push(b[0]);
+            Self::Rough { coefficients, error } => {
+                *error += rough::error_of_halving(coefficients);
+                let left = Arch::new().dispatch(
+                    #[inline(always)]
+                    || halves(coefficients, |a, b| *a = 0.5 * (*a + b)),
+                );
+                Self::Rough { coefficients: left, error: *error }
+            }
         }
-        // Each of n averages in a row rounds down by at most a half.
-        self.error += b.len() as u64 / 2 + 1;
-        Self { coefficients: left, error: self.error }
+    }
+
+    pub(super) fn degree(&self) -> usize {
+        match self {
+            Self::Wide { coefficients, .. } => coefficients.len() - 1,
+            Self::Rough { coefficients, .. } => coefficients.len() - 1,
+        }
+    }
+
+    /// Returns the sign that coefficient `j` certainly has, or 0.
+    #[inline(always)]
+    pub(super) fn sign(&self, j: usize) -> i8 {
+        match self {
+            Self::Wide { coefficients, error } => coefficients[j].sign_beyond(*error),
+            Self::Rough { coefficients, error } => {
+                i8::from(coefficients[j] > *error) - i8::from(coefficients[j] < -*error)
+            }
+        }
+    }
+
+    /// Returns floats within three units of their last places of the coefficients, scaled by a power of two to be below the degree
+    /// and 1, and the error of the coefficients, scaled likewise.
+    pub(super) fn floats(&self) -> (Vec<f64>, f64) {
+        match self {
+            Self::Wide { coefficients, error } => {
+                // All are below 2^255.
+                let scale = (-255_f64).exp2();
+                (coefficients.iter().map(|b| b.nearby() * scale).collect(), *error as f64 * scale)
+            }
+            Self::Rough { coefficients, error } => (coefficients.clone(), *error),
+        }
     }
 
     /// Returns the least and the largest number of sign changes, the first and last sign being known better.
     pub(super) fn sign_changes(&self, first: i8, last: i8) -> (i32, i32) {
-        let n = self.coefficients.len() - 1;
+        let n = self.degree();
         let (mut least, mut before) = (0, 0);
         // The most changes up to here that end in plus, and in minus.
         let (mut plus, mut minus) = (-1, -1);
-        for (j, b) in self.coefficients.iter().enumerate() {
+        for j in 0..=n {
             let at_end = j == 0 || j == n;
             let sign = if j == 0 {
                 first
             } else if j == n {
                 last
             } else {
-                b.sign_beyond(self.error)
+                self.sign(j)
             };
             if sign == 0 && at_end {
                 continue;
@@ -255,7 +319,13 @@ impl Expansion {
 
     /// Returns whether the largest coefficient has that many bits more than the error.
     fn stands_out(&self, bits: u32) -> bool {
-        self.coefficients.iter().any(|b| b.exceeds(self.error, bits))
+        match self {
+            Self::Wide { coefficients, error } => coefficients.iter().any(|b| b.exceeds(*error, bits)),
+            Self::Rough { coefficients, error } => {
+                let least = error * f64::from(bits).exp2();
+                coefficients.iter().any(|b| b.abs() > least)
+            }
+        }
     }
 
     /// Returns whether enough bits are left for another halving to be useful.
@@ -266,12 +336,13 @@ impl Expansion {
     /// Returns the approximate position in the cell of its only root, from 0 to 1, if the polynomial has the given sign left
     /// of it; `None` if floats cannot determine it.
     pub(super) fn guess_root(&self, left: i8) -> Option<f64> {
-        let n = self.coefficients.len() - 1;
-        let scale = self.coefficients.iter().map(|b| b.to_f64().abs()).fold(0.0, f64::max);
+        let n = self.degree();
+        let (floats, _) = self.floats();
+        let scale = floats.iter().map(|b| b.abs()).fold(0.0, f64::max);
         let mut binomial = 1.0;
         let mut terms: Vec<f64> = Vec::with_capacity(n + 1);
-        for (j, b) in self.coefficients.iter().enumerate() {
-            terms.push(b.to_f64() / scale * binomial);
+        for (j, b) in floats.iter().enumerate() {
+            terms.push(b / scale * binomial);
             binomial *= (n - j) as f64 / (j + 1) as f64;
         }
         // On the left half y/(1-y) runs from 0 to 1, on the right half (1-y)/y does, with the terms reversed.
@@ -303,7 +374,7 @@ impl Expansion {
 
     /// Returns the first sign that is certain.
     pub(super) fn first_sign(&self) -> i8 {
-        self.coefficients.iter().map(|b| b.sign_beyond(self.error)).find(|&sign| sign != 0).unwrap_or(0)
+        (0..=self.degree()).map(|j| self.sign(j)).find(|&sign| sign != 0).unwrap_or(0)
     }
 }
 
@@ -357,6 +428,38 @@ mod tests {
                         let expected = dyadic(&Integer::from(1), unit) * exact;
                         let error = (expected - found).abs();
                         assert!(error < FRESH_ERROR, "{degree} {numerator} {exponent} {bits}: {error}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn expansions_in_floats_are_wrong_by_less_than_they_say() {
+        for degree in [1_usize, 7, 40, 200, 400] {
+            // Of changing size and sign, some of them 0, from a linear congruence.
+            let next = |state: &u64| {
+                Some(state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407))
+            };
+            let numbers = std::iter::successors(Some(degree as u64), next);
+            let coefficient = |x: u64| Integer::from(x.cast_signed() >> 8) >> u32::try_from(x % 60).unwrap();
+            let mut coefficients: Vec<Integer> = numbers.map(coefficient).take(degree).collect();
+            coefficients.push(Integer::from(-3));
+            let source = Source::new(coefficients);
+            for (numerator, exponent) in [(0, 1), (0, -3), (1, 0), (3, -2), (1025, -10), (5, -30)] {
+                let cell = Cell::new(Integer::from(numerator), exponent);
+                let reach = source.reach(exponent + length(&cell.numerator));
+                let mut right = rough::expand(&source.floats, reach, &cell);
+                let parts = [cell.part(&Integer::new(), 1), cell.part(&Integer::from(1), 1)];
+                let whole = right.clone();
+                let left = right.halve();
+                for (cell, found) in [(&cell, whole), (&parts[0], left), (&parts[1], right)] {
+                    let Expansion::Rough { coefficients, error } = found else { panic!("floats stay floats") };
+                    assert!(error < 1e-10 * degree as f64);
+                    let unit = dyadic(&Integer::from(1), reach) * &source.weights[0];
+                    for (found, exact) in coefficients.iter().zip(exactly(&source, cell)) {
+                        let difference = exact / &unit - Rational::from_f64(*found).unwrap();
+                        assert!(difference.abs() < error, "{degree} {numerator} {exponent}");
                     }
                 }
             }

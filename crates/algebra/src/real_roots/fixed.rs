@@ -68,9 +68,15 @@ impl Wide {
     }
 
     /// Returns a float near the number.
-    pub(super) fn to_f64(self) -> f64 {
+    fn to_f64(self) -> f64 {
         const HALF: f64 = 1_u128.rotate_right(1) as f64;
         self.hi as f64 * (2.0 * HALF) + self.lo as f64
+    }
+
+    /// Returns a float within three units of its last place of the number.
+    pub(super) fn nearby(self) -> f64 {
+        // A negative number is a difference of its halves, which could lose all digits.
+        if self.hi < 0 { -self.negate().to_f64() } else { self.to_f64() }
     }
 
     /// Returns whether the absolute value exceeds `2^bits error`, `bits` at most 64.

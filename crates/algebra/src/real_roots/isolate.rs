@@ -8,7 +8,6 @@
 use super::bernstein::{Expansion, Source};
 use super::cell::Cell;
 use super::evaluate::{length, shifted, sign, value_at};
-use super::fixed::Wide;
 use super::sample::Sampler;
 use rug::Integer;
 
@@ -250,9 +249,9 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Returns the certain sign at `numerator 2^exponent`, from an approximate value if that is enough.
-    fn sign(&mut self, value: Wide, error: u64, numerator: &Integer, exponent: i64) -> i8 {
-        match value.sign_beyond(error) {
+    /// Returns the certain sign at `numerator 2^exponent`, where an approximate value tells it or, if that tells 0, a better one.
+    fn sign(&mut self, approximate: i8, numerator: &Integer, exponent: i64) -> i8 {
+        match approximate {
             0 => {
                 let value = value_at(&self.source.coefficients, numerator, exponent, 1, &mut self.value_bits);
                 sign(&value.mantissa)
@@ -263,9 +262,8 @@ impl Search<'_> {
 
     fn node(&mut self, cell: Cell, cluster: Cluster) -> Node {
         let expansion = self.source.expand(&cell, &mut self.bits);
-        let b = &expansion.coefficients;
-        let first = self.sign(b[0], expansion.error, &cell.numerator, cell.exponent);
-        let last = self.sign(b[b.len() - 1], expansion.error, &cell.end(), cell.exponent);
+        let first = self.sign(expansion.sign(0), &cell.numerator, cell.exponent);
+        let last = self.sign(expansion.sign(expansion.degree()), &cell.end(), cell.exponent);
         Node { cell, expansion, signs: (first, last), cluster }
     }
 
@@ -331,7 +329,7 @@ impl Search<'_> {
         let exponent = node.cell.exponent - i64::from(bits);
         for i in 1..signs.len() - 1 {
             if signs[i] == 0 {
-                signs[i] = self.sign(Wide::ZERO, 0, &Integer::from(&start + i), exponent);
+                signs[i] = self.sign(0, &Integer::from(&start + i), exponent);
             }
         }
         let (between, zeros) = count(&signs);
@@ -384,7 +382,7 @@ impl Search<'_> {
         let left = node.expansion.halve();
         let (left_cell, right_cell) = (node.cell.part(&Integer::new(), 1), node.cell.part(&Integer::from(1), 1));
         let (numerator, exponent) = (&right_cell.numerator, right_cell.exponent);
-        let middle = self.sign(node.expansion.coefficients[0], left.error, numerator, exponent);
+        let middle = self.sign(node.expansion.sign(0), numerator, exponent);
         let root = (middle == 0).then(|| Task::Report(Place::At(numerator.clone(), exponent)));
         let (first, last) = node.signs;
         stack.push(Task::Search(Node { cell: right_cell, signs: (middle, last), ..node }));

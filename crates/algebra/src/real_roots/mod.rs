@@ -7,6 +7,7 @@ mod fixed;
 mod isolate;
 mod rational;
 mod refine;
+mod rough;
 mod sample;
 
 use super::univariate::Univariate;

@@ -7,7 +7,6 @@
 //! a value in f64 decides where it is beyond the bound of its error, an exact value elsewhere.
 
 use super::bernstein::Expansion;
-use super::fixed::Wide;
 use pulp::Arch;
 
 /// The most sign changes for which a grid is tried: with roots evenly spread, values are some `e^m` times smaller than
@@ -36,21 +35,20 @@ pub(super) struct Sampler {
 impl Sampler {
     /// Returns the sampler for a cell with so many sign changes, and the bits of its grid; `None` where halving is better.
     pub(super) fn new(expansion: &Expansion, changes: i32) -> Option<(Self, u32)> {
-        let n = expansion.coefficients.len() - 1;
+        let n = expansion.degree();
         if !(2..=MOST_CHANGES).contains(&changes) || n > MOST_DEGREE {
             return None;
         }
-        // All |b_j| are below 2^255.
-        let scale = (-255_f64).exp2();
+        let (floats, error) = expansion.floats();
         let mut binomial = 1.0;
         let mut terms = Vec::with_capacity(n + 1);
-        for (j, b) in expansion.coefficients.iter().enumerate() {
-            terms.push(nearby(*b) * scale * binomial);
+        for (j, b) in floats.iter().enumerate() {
+            terms.push(b * binomial);
             binomial *= (n - j) as f64 / (j + 1) as f64;
         }
         let reversed = terms.iter().rev().copied().collect();
         let bits = (changes.unsigned_abs() * DENSITY).next_power_of_two().trailing_zeros();
-        Some((Self { terms, reversed, error: expansion.error as f64 * scale }, bits))
+        Some((Self { terms, reversed, error }, bits))
     }
 
     /// Returns the signs at `1/2^bits, 2/2^bits, ...` inside the cell, 0 where they are not certain.
@@ -132,12 +130,6 @@ impl Sampler {
 /// Returns `y/(1-y)` at `y = point/parts`, or `(1-y)/y` on the right half.
 fn ratio(point: f64, parts: f64, right: bool) -> f64 {
     if right { (parts - point) / point } else { point / (parts - point) }
-}
-
-/// Returns a float within three units of its last place of the number.
-fn nearby(n: Wide) -> f64 {
-    // A negative number is a difference of its halves, which could lose all digits.
-    if n.sign_beyond(0) < 0 { -n.negate().to_f64() } else { n.to_f64() }
 }
 
 /// Returns the values of a polynomial at points, and of that with the absolute values of its coefficients.
