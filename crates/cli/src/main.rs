@@ -8,6 +8,12 @@ use command::Arguments;
 use command::exit::Exit;
 use std::process::ExitCode;
 
+/// Results of batches are freed by another thread than made them, and large polynomials come and go: the allocator of the C library
+/// waits for its lock in the first case, and gives memory back to the system each time in the second.
+#[cfg(not(target_family = "wasm"))]
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 fn main() -> ExitCode {
     run().into()
 }
