@@ -1,6 +1,7 @@
 """Mechanism files (equations/README.md), with which the data of a certificate are compared."""
 import functools
 import json
+import re
 import tomllib
 
 from flint import arb, fmpq
@@ -10,9 +11,10 @@ from expressions import UNITS, expression
 from frames import placement
 from mechanism import Reader, angle
 from motions import IDENTITY, difference, dot, of_quaternion
-from quantities import Unreadable, by_half_tangent, is_exact, items
+from quantities import Unreadable, by_half_tangent, decimal, is_exact, items
 
 LARGEST = 64 << 20  # bytes of a mechanism file
+QUARTERS = re.compile(r"(?P<number>[+-]?\d{1,9}(?:\.\d{1,9})?)\s*(?P<deg>deg)?|(?P<sign>-?)(?:(?P<times>\d{1,9})\*)?pi(?:/(?P<part>[1-9]\d{0,8}))?", re.ASCII)
 FAULTS = (ArithmeticError, AttributeError, LookupError, MemoryError, RecursionError, TypeError, ValueError)
 
 
@@ -30,7 +32,8 @@ class FileReader(Reader):
     def cos_sin(self, table, key):
         half = "tan_half" if key == "angle" else "tan_half_" + key
         if half not in table:
-            return angle(table.get(key, "0"), self.radians)
+            text = str(table.get(key, "0"))
+            return right_angle(text, self.radians) or angle(text, self.radians)
         return (fmpq(-1), fmpq(0)) if table[half] == "inf" else by_half_tangent(expression(table[half]))
 
     def pose(self, table):
@@ -60,6 +63,15 @@ class FileReader(Reader):
         return [self.chain(mechanism, IDENTITY, {**given, "joint": int(given["joint"])} if given is not None else None) for given in inputs]
 
 
+def right_angle(text, unit):
+    """Cosine and sine of a multiple of a quarter turn written in degrees or as a fraction of pi; otherwise nothing."""
+    match = QUARTERS.fullmatch(text)
+    if not match or match["number"] and not match["deg"] and unit is not UNITS["deg"]:
+        return None
+    quarters = decimal(match["number"]) / 90 if match["number"] else fmpq(2 * int(match["sign"] + (match["times"] or "1")), int(match["part"] or "1"))
+    return tuple(map(fmpq, ((1, 0), (0, 1), (-1, 0), (0, -1))[int(quarters) % 4])) if quarters.q == 1 else None
+
+
 def legs_of(pose, base, plate):
     """The squared lengths of the legs at a pose."""
     legs = [difference([dot(row, b) + row[3] for row in pose], a) for a, b in zip(base, plate)]
@@ -67,10 +79,11 @@ def legs_of(pose, base, plate):
 
 
 def is_same(one, other):
-    """Whether two systems have the same constants, as far as balls tell."""
+    """Whether two systems have the same constants: rational ones are equal, of others balls overlap. A rational number is never the
+    same as one that is not known to be rational: it might be a convergent of it, for which other theorems hold."""
     shape = lambda system: (type(system), system.size, system.kinds, system.spherical)
-    pairs = zip(one.constants(), other.constants())
-    return shape(one) == shape(other) and all(x == y if is_exact((x, y)) else arb(x).overlaps(arb(y)) for x, y in pairs)
+    same = lambda x, y: x == y if is_exact((x, y)) else not is_exact([x]) and not is_exact([y]) and x.overlaps(y)
+    return shape(one) == shape(other) and all(map(same, one.constants(), other.constants()))
 
 
 @functools.cache

@@ -8,6 +8,7 @@ import subprocess
 import sys
 
 import pytest
+from flint import fmpq
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LOOPROOT = os.environ["LOOPROOT"]
@@ -129,6 +130,22 @@ def test_certificates_are_about_files_in_other_units(tmp_path, checker):
     assert len(lines(tmp_path / "certificate")) == 2
     answer = CHECKERS[checker](tmp_path / "certificate", "--file", tmp_path / "file.toml")
     assert answer.returncode == 0, answer
+
+
+@pytest.mark.parametrize("checker", CHECKERS)
+def test_a_rational_number_near_an_irrational_one_is_another_number(tmp_path, checker):
+    """The convergent of the square root of 2 agrees with it to more bits than balls have."""
+    convergent = [fmpq(1)]
+    while convergent[-1].height_bits() < 200:
+        convergent.append(1 + 1 / (1 + convergent[-1]))
+    for name, length in (("root", "sqrt(2)"), ("near", convergent[-1]), ("plain", "431.8")):
+        text = IN_MILLIMETRES.replace("431.8, alpha", f'"{length}", alpha')
+        (tmp_path / name).write_text(text)
+        run(LOOPROOT, "solve", tmp_path / name, "-q", "--certificate", tmp_path / f"of-{name}")
+    for name in ("root", "near", "plain"):
+        for file in ("root", "near", "plain"):
+            answer = CHECKERS[checker](tmp_path / f"of-{name}", "--file", tmp_path / file)
+            assert answer.returncode == (0 if file == name else 2), (name, file, answer)
 
 
 def lines(path):
