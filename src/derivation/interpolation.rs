@@ -8,7 +8,7 @@ use super::equation::primitive;
 use crate::algebra::drawn;
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
-use crate::algebra::projective::Shape;
+use crate::algebra::projective::{SPARE, Shape};
 use crate::algebra::residues::ManyResidues;
 use crate::algebra::ring::{Field, Ring};
 use crate::algebra::univariate::Univariate;
@@ -277,8 +277,8 @@ impl<'s, S: Source> Family<'s, S> {
         let entries = degrees[..below].iter().fold(self.length, |product, degree| product * (degree + 1));
         let least = Shape::points(degrees[below], entries);
         // Where the vectors at all values have few dimensions, as if they are even in the symbol, more of them determine the factors: two
-        // dimensions need one point for every degree more.
-        let most = least + degrees[below];
+        // dimensions need one point more for every degree and for every spare equation.
+        let most = least + degrees[below] + 1 + SPARE;
         let mut count = shapes[below].as_ref().map_or(least, |(_, count)| *count);
         let samples = loop {
             let samples = self.sampled_below(below, count, degrees, outer, shapes)?;

@@ -10,9 +10,9 @@ use super::echelon::Echelon;
 use super::ring::Field;
 use super::univariate::Univariate;
 
-/// Number of redundant equations that must hold as well; modulo a prime they do so by chance with a probability below
+/// The number of redundant equations that must hold as well; modulo a prime they do so by chance with a probability below
 /// `2^-400`.
-const SPARE: usize = 8;
+pub const SPARE: usize = 8;
 
 /// The degree of vectors known up to a factor, and the equations that determine the factors.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -58,6 +58,12 @@ impl Shape {
         let mut shapes = (least..=most).map(|degree| (degree, echelon(degree)));
         let (degree, (found, equations)) = shapes.find(|(_, (found, _))| found.rank() < points.len())?;
         let independent = found.independent_rows().iter().map(|&row| equations[row]).collect();
+        // For every power there are as many equations as the vectors have dimensions: of r + 1 vectors in r dimensions any are
+        // related by one equation. Vectors in one dimension show by themselves that they are all one.
+        let span = Echelon::of(vectors.to_vec(), entries).rank();
+        if span > 1 && (points.len() - 1 - degree) * span < points.len() + SPARE {
+            return None;
+        }
         (found.rank() + 1 == points.len()).then_some(Self { degree, equations: independent })
     }
 
@@ -144,11 +150,37 @@ mod tests {
         };
         let points: Vec<i64> = (2..9).collect();
         assert_eq!(Shape::of(&rationals(&points), &vectors(&points)), None);
-        let points: Vec<i64> = (2..15).collect();
+        let points: Vec<i64> = (2..20).collect();
         let shape = Shape::of(&rationals(&points), &vectors(&points)).unwrap();
         assert_eq!(shape.degree, 4);
         let entries = shape.interpolate(&rationals(&points), &vectors(&points)).unwrap();
         assert_eq!(entries[0].degree(), Some(4));
+    }
+
+    #[test]
+    fn even_entries_need_more_points() {
+        // Combinations of 1, y^2 and y^4: the vectors at any four points are related by one equation.
+        let vectors = |points: &[i64]| -> Vec<Vec<Rational>> {
+            let vector = |y: &i64| {
+                let (square, factor) = (y * y, Rational::from((1, y * y + 3 * y)));
+                let entry =
+                    |k: i64| Rational::from(k + 1 + (k * k - 5) * square + (7 - 2 * k) * square * square) * &factor;
+                (0..12).map(entry).collect()
+            };
+            points.iter().map(vector).collect()
+        };
+        let points: Vec<i64> = (2..6).collect();
+        assert_eq!(Shape::of(&rationals(&points), &vectors(&points)), None);
+        let points: Vec<i64> = (2..14).collect();
+        assert_eq!(Shape::of(&rationals(&points), &vectors(&points)).unwrap().degree, 4);
+    }
+
+    #[test]
+    fn equal_vectors_have_degree_zero() {
+        let points = rationals(&[2, 3, 4, 5, 6, 7, 8, 9]);
+        let vectors: Vec<Vec<Rational>> =
+            [1, -3, 4, 2, 7, -1, 5, 3].iter().map(|k| rationals(&[*k, 2 * k, -5 * k])).collect();
+        assert_eq!(Shape::of(&points, &vectors).unwrap().degree, 0);
     }
 
     #[test]

@@ -160,7 +160,12 @@ impl<R: Ring> Polynomial<R> {
     /// Appends a term that is not above the last one, and adds it to that one if the monomials are equal. Leaves a last
     /// term of zero to [`Self::drop_last_if_zero`].
     fn push(&mut self, monomial: &[u64], c: R) {
-        if self.monomials.ends_with(monomial) && !self.coefficients.is_empty() {
+        let is_same = match (monomial, self.monomials.last()) {
+            // Most monomials are one word, which needs no call.
+            ([word], Some(last)) => word == last,
+            _ => !self.coefficients.is_empty() && self.monomials.ends_with(monomial),
+        };
+        if is_same {
             let last = self.coefficients.len() - 1;
             self.coefficients[last] = self.coefficients[last].add(&c);
         } else {
