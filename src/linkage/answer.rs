@@ -143,6 +143,7 @@ fn route(group: &Solution) -> String {
         Route::Pencil(rows) => format!("pencil of {rows} rows"),
         Route::Basis => "Gröbner basis".to_owned(),
         Route::Boxes(boxes) => format!("{boxes} boxes of angles"),
+        Route::Wheel => "a power of a rotation".to_owned(),
         Route::Gears(1) => "Gröbner basis of a pair of gears".to_owned(),
         Route::Gears(pairs) => format!("Gröbner basis of {pairs} pairs of gears"),
     }
@@ -164,6 +165,9 @@ fn because(has: &dyn Fn(fn(&Route) -> bool) -> bool) -> String {
     }
     if has(|route| matches!(route, Route::Gears(_))) {
         parts.push("Gröbner bases over the rationals count those of gears");
+    }
+    if has(|route| matches!(route, Route::Wheel)) {
+        parts.push("a wheel has one for every root of the power of its rotation that is known");
     }
     if has(|route| matches!(route, Route::Quadratic)) {
         parts.push("dyads have two each");

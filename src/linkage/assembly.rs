@@ -5,7 +5,7 @@ use super::equations::{Closure, Equations};
 use super::exact_group::{Decided, decided};
 use super::fibres::by_fibres;
 use super::geared_groups::geared_groups;
-use super::gears::{geared, teeth};
+use super::gears::{geared, is_wheel, teeth};
 use super::general::{general, least_rows};
 use super::groups::{Group, Groups, MOST_CLUSTERS, MOST_IN_BOXES, Merged};
 use super::isotropic::{Isotropic, Value};
@@ -56,6 +56,8 @@ pub enum Route {
     Basis,
     /// The equations of this many pairs of gears and of the cycles.
     Gears(usize),
+    /// The turn of a wheel about a joint of the rest, of which a power is known.
+    Wheel,
     /// This many boxes of angles: real assemblies only.
     Boxes(usize),
 }
@@ -324,7 +326,8 @@ fn attempt(linkage: &Linkage, start: &State, groups: &Groups, highest: usize, as
             if group.gears.is_empty() {
                 branch(at, &mut solution, &mut next, &mut found, asked);
             } else {
-                solution.route = Route::Gears(group.gears.len());
+                let is_wheel = is_wheel(&closure.equations, group);
+                solution.route = if is_wheel { Route::Wheel } else { Route::Gears(group.gears.len()) };
                 let solved = geared(linkage, &closure, group, state);
                 add(solved, at, &mut solution, &mut next, &mut found);
             }

@@ -5,10 +5,12 @@
 //! its conjugate. \[Wampler2001\]
 
 use super::groups::Group;
-use super::isotropic::{Isotropic, Value};
+use super::isotropic::{Isotropic, Value, middle};
 use super::state::{Half, Number, Place, State, number};
 use crate::algebra::ring::Ring;
-use crate::kinematics::linkage::{Linkage, Pair};
+use crate::kinematics::linkage::{Gaussian, Linkage, Pair};
+use num_complex::Complex;
+use rug::Rational;
 
 /// A displacement along a prismatic joint, unknown.
 #[derive(Clone, Debug)]
@@ -287,10 +289,22 @@ impl<N> Equations<N> {
 impl Equations<Number> {
     /// The equations over complex numbers with rational parts, where the data are such.
     #[must_use]
-    pub fn exact(&self) -> Option<Equations<Isotropic<crate::kinematics::linkage::Gaussian>>> {
+    pub fn exact(&self) -> Option<Equations<Isotropic<Gaussian>>> {
         self.map(|number| {
-            let half = |value: &super::isotropic::Value| value.exact.as_ref()?.to_gaussian();
+            let half = |value: &Value| value.exact.as_ref()?.to_gaussian();
             Some(Isotropic { z: half(&number.z)?, w: half(&number.w)? })
+        })
+    }
+
+    /// The equations with rational numbers near all others, of which they tell nothing for certain; `None` beyond the range of f64.
+    #[must_use]
+    pub fn rounded(&self) -> Option<Equations<Isotropic<Gaussian>>> {
+        let rational = |z: Complex<f64>| Some(Complex { re: Rational::from_f64(z.re)?, im: Rational::from_f64(z.im)? });
+        self.map(|number| {
+            let (z, w) = (middle(&number.z.disc), middle(&number.w.disc));
+            // Of a real assembly the halves are conjugates, which rounding may have moved.
+            let is_real = (w - z.conj()).norm() <= f64::EPSILON * z.norm();
+            Some(Isotropic { z: rational(z)?, w: rational(if is_real { z.conj() } else { w })? })
         })
     }
 }

@@ -9,11 +9,12 @@
 use super::equations::{Closure, Equations};
 use super::exact_group::solutions;
 use super::groups::Group;
-use super::isotropic::Isotropic;
+use super::isotropic::{Isotropic, Value};
 use super::points::EFFORT;
 use super::quadratic::{Root, Solved};
 use super::real_system::{Form, RealSystem, circles, constant, cycle_forms, turned, unknowns, way};
 use super::state::{Number, State, number};
+use crate::algebra::disc::Disc;
 use crate::algebra::groebner::{Basis, MOST_VARIABLES};
 use crate::algebra::ring::Ring;
 use crate::error::{Error, Result};
@@ -71,13 +72,15 @@ pub fn geared(linkage: &Linkage, closure: &Closure, group: &Group, state: &State
     let equations = &closure.equations;
     let meshes: Option<Vec<Mesh>> = group.gears.iter().map(|gear| mesh(linkage, closure, state, *gear)).collect();
     let Some(meshes) = meshes else { return Solved::Undecided("gears whose bodies are not of one group".to_owned()) };
-    if let Some(turn) = wheel(equations, &meshes) {
+    let only = if is_wheel(equations, group) { meshes.first() } else { None };
+    if let Some(turn) = only.and_then(wheel) {
         return Solved::Roots(vec![Root { turns: vec![Number::one(), turn], shifts: Vec::new(), multiplicity: 1 }]);
     }
     let exact = |n: &Number| n.z.exact.as_ref()?.to_gaussian();
     let factors: Option<Vec<Gaussian>> = meshes.iter().map(|mesh| exact(&mesh.factor)).collect();
     let (Some(cycles), Some(factors)) = (equations.exact(), factors) else {
-        return Solved::Undecided("a group with gears stands on an assembly whose numbers are not rational".to_owned());
+        let undecided = || Solved::Undecided("a group with gears stands on an assembly whose numbers are not rational".to_owned());
+        return only.and_then(wheel_by_roots).map_or_else(undecided, Solved::Roots);
     };
     let unknowns = unknowns(equations);
     if unknowns > MOST_VARIABLES {
@@ -99,11 +102,25 @@ pub fn geared(linkage: &Linkage, closure: &Closure, group: &Group, state: &State
     }
 }
 
-/// The rotation of a wheel that turns about a joint of the rest, once for every turn of what drives it; `None` of other groups.
-fn wheel(equations: &Equations<Number>, meshes: &[Mesh]) -> Option<Number> {
-    let ([mesh], 2, 0, true) = (meshes, equations.classes, equations.loops(), equations.slides.is_empty()) else {
-        return None;
+/// Whether a group is a wheel that turns about a joint of the rest.
+#[must_use]
+pub fn is_wheel<N>(equations: &Equations<N>, group: &Group) -> bool {
+    group.gears.len() == 1 && equations.classes == 2 && equations.loops() == 0 && equations.slides.is_empty()
+}
+
+/// The rotations of a wheel, all n of them where its n-th power is known; `None` where that power is not kept from 0 by its disc.
+fn wheel_by_roots(mesh: &Mesh) -> Option<Vec<Root>> {
+    let exponent = mesh.exponents[1];
+    let known = if exponent < 0 { mesh.factor.mirrored() } else { mesh.factor.clone() };
+    let root = |z: Disc| {
+        let turn = Isotropic { w: Value::within(z.inverse()?), z: Value::within(z) };
+        Some(Root { turns: vec![Number::one(), turn], shifts: Vec::new(), multiplicity: 1 })
     };
+    known.z.disc.roots(exponent.unsigned_abs())?.into_iter().map(root).collect()
+}
+
+/// The rotation of a wheel that turns once for every turn of what drives it; `None` of others.
+fn wheel(mesh: &Mesh) -> Option<Number> {
     match mesh.exponents[1] {
         1 => Some(mesh.factor.clone()),
         -1 => Some(mesh.factor.mirrored()),

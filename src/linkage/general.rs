@@ -106,9 +106,9 @@ impl Choice {
 /// Solves a group.
 #[must_use]
 pub fn general(equations: &Equations<Number>) -> Found {
-    let Some(exact) = equations.exact() else {
-        return Found::nothing("a group of several loops stands on an assembly whose numbers are not rational");
-    };
+    let known = equations.exact();
+    let is_rounded = known.is_none();
+    let Some(exact) = known.or_else(|| equations.rounded()) else { return Found::nothing("no approximation of the data") };
     let approximate = exact.map(|n| Some(n.map(|z| Complex::new(z.re.to_f64(), z.im.to_f64()))));
     let Some(approximate) = approximate else { return Found::nothing("no approximation of the data") };
     let mut found =
@@ -122,6 +122,15 @@ pub fn general(equations: &Equations<Number>) -> Found {
             break;
         }
         found.choices.push(choice);
+    }
+    if is_rounded {
+        // The solutions were proved for the numbers themselves; all else is said of those near them.
+        (found.most, found.choices) = (None, Vec::new());
+        found.doubt = Some(
+            "a group of several loops stands on an assembly whose numbers are not rational: solutions were looked for near those \
+             of rational numbers, and others may exist"
+                .to_owned(),
+        );
     }
     found
 }

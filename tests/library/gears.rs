@@ -312,3 +312,73 @@ tan_half = 0
     assert_eq!(answer.verdict.status, Status::Incomplete, "{}", answer.verdict.reason);
     assert!(answer.verdict.reason.contains("dimension 1"), "{}", answer.verdict.reason);
 }
+
+/// A four-bar's coupler triangle and a wheel upon it: the triangle has irrational coordinates, and the wheel a position for every root.
+#[test]
+fn a_wheel_on_a_dyad_takes_every_position() {
+    for (ratio, p, q) in [("-2", -2_i32, 1), ("3", 3, 1), ("-3/2", -3, 2), ("1/4", 1, 4)] {
+        let text = format!(
+            r#"
+[mechanism]
+kind = "linkage"
+space = "plane"
+ground = "b0"
+joints = [
+ {{ name = "J0", type = "R", of = ["b0", "b1"] }},
+ {{ name = "J1", type = "R", of = ["b1", "b2"] }},
+ {{ name = "J2", type = "R", of = ["b1", "b3"] }},
+ {{ name = "J3", type = "R", of = ["b0", "b2"] }},
+ {{ name = "J4", type = "gear", of = ["b3", "b2"], carrier = "b1", ratio = "{ratio}", phase = {{ tan_half = "-3" }} }},
+]
+[mechanism.bodies]
+b0 = {{ J0 = [0, -1], J3 = [2, 2] }}
+b1 = {{ J0 = [3, -2], J1 = [1, -1], J2 = [1, "8/5"] }}
+b2 = {{ J1 = ["-3/2", 8], J3 = [1, 4] }}
+b3 = {{ J2 = [3, -2] }}
+"#
+        );
+        let answer = solved(&text);
+        assert_eq!((answer.verdict.status, answer.verdict.proof), (Status::Complete, Proof::Proved), "{ratio}");
+        // The angle of the wheel is 1/p times a known one.
+        assert_eq!(answer.modes.iter().filter(|mode| mode.real).count(), 2 * p.unsigned_abs() as usize);
+        let phase = 2.0 * (-3_f64).atan();
+        for (k, mode) in answer.modes.iter().enumerate() {
+            let [carrier, second, first] = [1, 2, 3].map(|body: usize| mode.bodies[body].0.re);
+            let (p, q) = (f64::from(p), f64::from(q));
+            let turns = (q * (second - carrier) - p * (first - carrier) - q * phase) / std::f64::consts::TAU;
+            assert!((turns - turns.round()).abs() < 1e-12, "{ratio}: {turns}");
+            let gap = |other: &looproot::internal::linkage::answer::LinkageMode| (other.bodies[3].0.re - first).abs();
+            assert!(answer.modes[..k].iter().all(|other| gap(other) > 1e-6));
+        }
+    }
+}
+
+/// A group of several loops and a slide on an irrational dyad: its assemblies are listed, not proved to be all.
+#[test]
+fn groups_with_slides_are_solved_near_rational_numbers() {
+    let text = r#"
+[mechanism]
+kind = "linkage"
+space = "plane"
+ground = "b0"
+joints = [
+ { name = "J0", type = "R", of = ["b0", "b1"] },
+ { name = "J1", type = "R", of = ["b0", "b2"] },
+ { name = "J2", type = "R", of = ["b1", "b3"] },
+ { name = "J3", type = "R", of = ["b2", "b4"] },
+ { name = "J4", type = "RR", of = ["b4", "b3"], length = 9 },
+ { name = "J5", type = "RR", of = ["b0", "b4"], length = 7 },
+ { name = "J6", type = "PR", of = ["b4", "b1"], along = [0, 1] },
+ { name = "J7", type = "PR", of = ["b3", "b1"], along = [4, -3] },
+]
+[mechanism.bodies]
+b0 = { J0 = [0, 0], J1 = [0, 2], J5 = [5, 0] }
+b1 = { J0 = [1, 0], J2 = [-5, -4], J6 = [4, -2], J7 = [3, -2] }
+b2 = { J1 = [2, "-7/2"], J3 = [0, 2] }
+b3 = { J2 = [2, -1], J4 = ["-5/2", -6], J7 = [0, 0] }
+b4 = { J3 = [1, 0], J4 = [3, -1], J5 = [0, 0], J6 = ["4/3", 2] }
+"#;
+    let answer = solved(text);
+    assert_eq!((answer.verdict.status, answer.verdict.proof), (Status::Incomplete, Proof::None));
+    assert!(answer.verdict.real >= 16, "{}", answer.verdict.real);
+}

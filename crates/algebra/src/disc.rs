@@ -1,7 +1,10 @@
 //! Discs of complex numbers, in as many bits as their centres have; results computed with them are proved.
 
 use super::ring::Ring;
-use rug::{Float, Rational, float::Round};
+use rug::{
+    Float, Rational,
+    float::{Constant, Round},
+};
 
 /// Precision of a radius in bits; a radius is always rounded up.
 const RADIUS_BITS: u32 = 64;
@@ -162,6 +165,28 @@ impl Disc {
         Some(Self { re, im, radius: error }.rounded(16))
     }
 
+    /// Returns all n-th roots, anticlockwise from the one whose argument is least in size; `None` if the disc is not far enough from 0.
+    #[must_use]
+    pub fn roots(&self, n: u32) -> Option<Vec<Self>> {
+        let least = self.centre_at_least();
+        if up(&self.radius * 2_u32) > least || least == 0 || n == 0 {
+            return None;
+        }
+        // An angle of up to n turns is divided by n, with a few roundings of a unit of n turns.
+        let bits = self.bits() + 16 + u32::BITS - n.leading_zeros();
+        let size = Float::with_val(bits, self.re.hypot_ref(&self.im)).root(n);
+        let argument = Float::with_val(bits, self.im.atan2_ref(&self.re));
+        let turn = Float::with_val(bits, Constant::Pi) * 2_u32;
+        // w = w_m (1 + d)^(1/n) with d = (z - m)/m below 1/2, and |(1 + d)^(1/n) - 1| <= 2 |d|.
+        let error = up(&up(&up(&self.radius * 2_u32) / &least) * &up(&size));
+        let root = |k: u32| {
+            let angle = (Float::with_val(bits, &turn * k) + &argument) / n;
+            let (sin, cos) = angle.sin_cos(Float::new(bits));
+            Self { re: cos * &size, im: sin * &size, radius: error.clone() }.rounded(1 << 8)
+        };
+        Some((0..n).map(root).collect())
+    }
+
     /// Returns the angle with this cosine and sine, real or complex: `-i log(cos + i sin)` with a real part in (-pi, pi].
     /// `None` if the discs are too large to determine it.
     #[must_use]
@@ -265,6 +290,31 @@ mod tests {
             assert!(off(&b.inverse().unwrap(), z.inv().re, z.inv().im) <= 1.0 + 1e-9);
             assert!(off(&b.sqrt().unwrap(), z.sqrt().re, z.sqrt().im) <= 1.0 + 1e-9);
         }
+    }
+
+    #[test]
+    fn roots_of_all_numbers_inside_are_held() {
+        for (re, im) in [(0.3, 0.0), (-3.0, 0.5), (-1.0, 0.0), (2.8, -3.0)] {
+            let given = disc(re, im, 0.125);
+            for n in [1_u32, 2, 3, 7, 40] {
+                let roots = given.roots(n).unwrap();
+                assert_eq!(roots.len(), n as usize);
+                for step in 0..16 {
+                    let (sin, cos) = (f64::from(step) / 2.5).sin_cos();
+                    let z = num_complex::Complex::new(re + 0.125 * cos, im + 0.125 * sin);
+                    // Each of the roots lies in a disc of its own.
+                    for k in 0..n {
+                        let turn = f64::from(k) * std::f64::consts::TAU / f64::from(n);
+                        let root = z.powf(1.0 / f64::from(n)) * num_complex::Complex::from_polar(1.0, turn);
+                        assert!(roots.iter().any(|disc| off(disc, root.re, root.im) <= 1.0 + 1e-9), "{re} {im} {n}");
+                    }
+                }
+                let back = roots[0].clone();
+                let power = (1..n).fold(back.clone(), |power, _| power.mul(&back));
+                assert!(off(&power, re, im) <= 1.0);
+            }
+        }
+        assert!(disc(0.1, 0.0, 0.2).roots(3).is_none() && disc(1.0, 0.0, 0.0).roots(0).is_none());
     }
 
     #[test]
