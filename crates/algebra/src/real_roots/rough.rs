@@ -81,7 +81,7 @@ fn horner(terms: &[f64], from: f64, to: f64) -> (Vec<f64>, f64) {
         let part = if degree == 0 { 0.0 } else { 1.0 / whole };
         let (stay, rise) = (part * from, part * to);
         before[degree + 1] = 0.0;
-        let pairs = before[..degree + 1].iter().zip(&before[1..degree + 2]);
+        let pairs = before[..=degree].iter().zip(&before[1..degree + 2]);
         for ((b, place), (lower, same)) in after[1..degree + 2].iter_mut().zip(&places).zip(pairs) {
             *b = term + ((whole - place) * stay * same + place * rise * lower);
         }
