@@ -17,6 +17,7 @@ try:
     import bounds
     import eliminant
     from closures import proved_modes
+    from conditions import four_joints
     from curve import curve
     from distance import distance
     from files import FAULTS, is_same, of_file
@@ -48,9 +49,9 @@ def check(certificate, of_file):
         raise Unreadable(f"found format {str(form)[:40]!r}, version {str(version)[:20]}, expected looproot-certificate, version 1")
     if claim.get("verb") not in VERBS or not items(proof):
         raise Refused("claim: only answers of solve, mobility and derive with a proof are covered")
-    has_input = claim["verb"] != "mobility"
-    system = Reader().system(data, has_input)
-    if of_file and not any(is_same(system, own) for own in of_file(has_input)):
+    is_of_one, has_input = claim["verb"] != "conditions", claim["verb"] != "mobility"
+    system = Reader().system(data, has_input) if is_of_one else None
+    if of_file and not is_of_one or of_file and not any(is_same(system, own) for own in of_file(has_input)):
         raise Refused("file: the data of the certificate are those of no case of the file")
     found = {"verb": claim["verb"], "proof": "proved", **VERBS[claim["verb"]](system, data, claim, modes, *proof)}
     plain = lambda value: json.dumps(value, sort_keys=True)
@@ -95,7 +96,7 @@ def moving(system, data, claim, modes, item, *others):
     return {"status": "mobile" if dimension else "immobile", "mobility": dimension}
 
 
-VERBS = {"solve": solved, "derive": derived, "mobility": moving}
+VERBS = {"solve": solved, "derive": derived, "mobility": moving, "conditions": four_joints}
 
 
 def distinct(pairs):
