@@ -1,12 +1,12 @@
 """Theorem 12 of docs/certificate.md: all families of loops of four rotations that move."""
+import functools
 import itertools
 import math
 
 from quantities import Refused, fields, items
-from symbols import A, D, ONE, T, X, ZERO, around, determinant, insert, minors, parts, polynomial, screw
+from symbols import A, D, ONE, T, X, ZERO, around, determinant, insert, minors, never_zero, parts, polynomial, screw
 
 FIRST, FOURTH = 12, 15  # the places of x1 and x4 among the variables
-OBLIQUE = math.prod((t * (1 + t * t) for t in T), start=ONE)  # not 0 where no twist is a multiple of pi
 EVEN = [(2, 2), (2, 0), (0, 2), (0, 0), (1, 1)]  # the exponents of x1 and x4 in f, and those of its coefficients A, B, C, E, M
 # Pairs of A, B, C, E that are 0 where f has a factor x1, x4, or one of those at infinity, and what moves f to the odd multiple of the rest.
 FOLDS = {("A", "C"): (0, 1), ("B", "E"): (0, -1), ("A", "B"): (1, 0), ("C", "E"): (-1, 0)}
@@ -18,19 +18,12 @@ def require(holds, what):
         raise Refused(f"proof: families: {what}")
 
 
-def never_zero(p, allowed=ONE):
-    """Whether p is not 0 where no twist is a multiple of pi and `allowed` is not 0: it has no factor besides theirs."""
-    while p != 0 and (common := p.gcd(allowed * OBLIQUE)) != 1:
-        p //= common
-    return p != 0 and p.is_constant()
-
-
 def closure():
     """f and g: the axes of joints 2 and 3, as all links but the second leave them, have its twist and its length."""
     link, joint, t = (lambda k: screw(1, (T[k], ONE), A[k])), (lambda k: screw(3, (X[k], ONE), D[k])), T[1]
     (p, q, r, s), (u, v, w, z) = around(link(2), joint(3), link(3), joint(0), link(0))
-    f = q * q + r * r - t * t * (p * p + s * s)
-    g = 2 * (q * v + r * w) - 2 * t * t * (p * u + s * z) - A[1] * t * (p * p + q * q + r * r + s * s)
+    f = t * t * (p * p + s * s) - q * q - r * r
+    g = 2 * t * t * (p * u + s * z) - 2 * (q * v + r * w) + A[1] * t * (p * p + q * q + r * r + s * s)
     return f // math.gcd(*map(int, f.coeffs())), g
 
 
@@ -134,17 +127,24 @@ def family(table, shape):
     return [[polynomial(text) for text in items(texts, count)] for texts, count in zip(lists, shape[1:])]
 
 
+@functools.cache
+def checked_closure():
+    """f, and the coefficients of lengths and offsets in g: points 1 to 4 of the proof hold, which depend on no family."""
+    f, g = closure()
+    slopes = [g.derivative(k) for k in (4, 5, 6, 7, 8, 11)]
+    sines(in_general(f, g, slopes))
+    on_deltoids(f, slopes)
+    return f, slopes
+
+
 def four_joints(system, data, claim, modes, item, *others):
     """All families of loops of four rotations of which no twist is a multiple of pi and joints 1 and 4 move."""
     fields(item, ("kind",))
     items(modes, 0)
     require(item["kind"] == "families" and not others and data == {"joints": 4}, "only loops of four joints have such a proof")
     *bennett, spherical = map(family, items(claim["families"], 17), [("bennett", 9, 3)] * 16 + [("spherical", 8, 1)])
-    f, g = closure()
-    slopes = [g.derivative(k) for k in (4, 5, 6, 7, 8, 11)]
-    sines(in_general(f, g, slopes))
-    on_deltoids(f, slopes)
-    on_isograms(f, slopes, bennett)
-    require(all(conditions[5:] == [*D] for conditions, _ in bennett), "offsets are not 0")
+    f, slopes = checked_closure()
     require(spherical == [[*A, *D], [f]], "the last family is not that of axes through one point")
+    require(all(conditions[5:] == [*D] for conditions, _ in bennett), "offsets are not 0")
+    on_isograms(f, slopes, bennett)
     return {"status": "complete", "families": claim["families"], "oblique_links": [1, 2, 3, 4], "moving_joints": [1, 4]}

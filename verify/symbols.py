@@ -12,6 +12,7 @@ NAMES = [letter + number for letter in "tadx" for number in "1234"]
 RING = fmpz_mpoly_ctx.get(NAMES, "lex")
 T, A, D, X = (RING.gens()[k:k + 4] for k in (0, 4, 8, 12))
 ZERO, ONE = RING.constant(0), RING.constant(1)
+OBLIQUE = math.prod((t * (1 + t * t) for t in T), start=ONE)  # not 0 where no twist is a multiple of pi
 LONGEST = 5000  # characters of a polynomial
 
 
@@ -27,6 +28,13 @@ def polynomial(text):
 def factor(text):
     name, _, power = text.partition("^")
     return RING.gen(NAMES.index(name)) ** int(power or 1) if name in NAMES else RING.constant(int(text))
+
+
+def never_zero(p, allowed=ONE):
+    """Whether p is not 0 where no twist is a multiple of pi and `allowed` is not 0: it has no factor besides theirs."""
+    while p != 0 and (common := p.gcd(allowed * OBLIQUE)) != 1:
+        p //= common
+    return p != 0 and p.is_constant()
 
 
 def parts(p, *places):

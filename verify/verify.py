@@ -48,7 +48,7 @@ def check(certificate, of_file):
     if form != "looproot-certificate" or whole(version) != 1:
         raise Unreadable(f"found format {str(form)[:40]!r}, version {str(version)[:20]}, expected looproot-certificate, version 1")
     if claim.get("verb") not in VERBS or not items(proof):
-        raise Refused("claim: only answers of solve, mobility and derive with a proof are covered")
+        raise Refused("claim: only answers of solve, derive, mobility and conditions with a proof are covered")
     is_of_one, has_input = claim["verb"] != "conditions", claim["verb"] != "mobility"
     system = Reader().system(data, has_input) if is_of_one else None
     if of_file and not is_of_one or of_file and not any(is_same(system, own) for own in of_file(has_input)):

@@ -5,6 +5,7 @@ use super::bound::{OF_OWN, bound};
 use super::chain::ChainClosure;
 use super::data::{data_of, data_of_loop, entry_of};
 use super::distance;
+use super::families::check_families;
 use super::fault::{Fault, refused, shortened, unreadable};
 use super::isolation::{Closed, proved_modes};
 use super::mode::Ball;
@@ -45,6 +46,9 @@ pub enum Holds {
     OutOfReach,
     /// A closed loop moves in this many dimensions; 0 means that it does not move.
     Mobility(usize),
+    /// All loops of four rotations that move are of these families, so many: no twist is a multiple of pi, and two neighbouring joints
+    /// move.
+    Families(usize),
 }
 
 impl fmt::Display for Holds {
@@ -58,6 +62,9 @@ impl fmt::Display for Holds {
             }
             Self::Real(real) => write!(f, "{real} real solutions: complete, proved"),
             Self::OutOfReach => write!(f, "no real solution: proved"),
+            Self::Families(count) => {
+                write!(f, "{count} families of loops of four oblique links of which joints 1 and 4 move: complete, proved")
+            }
             Self::Mobility(0) => write!(f, "immobile, of dimension 0: proved"),
             Self::Mobility(dimension) => write!(f, "mobile, of dimension {dimension}: proved"),
         }
@@ -70,8 +77,16 @@ impl fmt::Display for Holds {
 /// [`Fault`] names the first item that does not hold, or what cannot be read.
 pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> {
     let record = Record::read(certificate)?;
-    if !matches!(record.claim.verb.as_str(), "solve" | "mobility" | "derive") || record.claim.proof != "proved" {
-        return refused("claim: only proved answers of solve, mobility and derive are covered");
+    let verbs = ["solve", "mobility", "derive", "conditions"];
+    if !verbs.contains(&record.claim.verb.as_str()) || record.claim.proof != "proved" {
+        return refused(format!("claim: only proved answers of {} are covered", verbs.join(", ")));
+    }
+    if let Some(claim) = &record.claim.families {
+        if file.is_some() {
+            return refused("file: the certificate is about all loops of four rotations, and about no file");
+        }
+        let found = check_families(&record.data, &record.claim.status, claim, record.modes.len(), &record.proof);
+        return found.map(Holds::Families);
     }
     if record.claim.verb == "mobility" {
         return of_motion(record, file).map(Holds::Mobility);

@@ -1,5 +1,6 @@
 //! The text of certificates: JSON objects with known keys and no others.
 
+use super::families;
 use super::fault::{Fault, shortened, unreadable};
 use super::mode::{Ball, Unproved};
 use super::polynomial;
@@ -38,6 +39,8 @@ pub(super) struct Claim {
     pub mobility: Option<usize>,
     /// The polynomial of `derive`.
     pub polynomial: Option<polynomial::Claim>,
+    /// The families of `conditions`.
+    pub families: Option<families::Claim>,
 }
 
 impl Record {
@@ -74,7 +77,15 @@ fn claim(value: &Value) -> Result<Claim, Fault> {
             real: None,
             mobility: Some(count(mobility)?),
             polynomial: None,
+            families: None,
         });
+    }
+    if value.get("verb").and_then(Value::as_str) == Some("conditions") {
+        let needed = ["verb", "status", "proof", "families", "oblique_links", "moving_joints"];
+        let [verb, status, word, families, links, joints] = fields(value, needed, &[])?;
+        let (verb, status, proof) = words(verb, status, word)?;
+        let families = Some(families::Claim::read(families, links, joints)?);
+        return Ok(Claim { verb, status, proof, complex: None, real: None, mobility: None, polynomial: None, families });
     }
     let of_polynomial = ["unknown", "degree", "polynomial"];
     let is_derived = value.get("verb").and_then(Value::as_str) == Some("derive");
@@ -93,7 +104,7 @@ fn claim(value: &Value) -> Result<Claim, Fault> {
     let [verb, status, word, real] = fields(value, ["verb", "status", "proof", "real"], &["complex"])?;
     let (verb, status, proof) = words(verb, status, word)?;
     let complex = value.get("complex").map(count).transpose()?;
-    Ok(Claim { verb, status, proof, complex, real: Some(count(real)?), mobility: None, polynomial })
+    Ok(Claim { verb, status, proof, complex, real: Some(count(real)?), mobility: None, polynomial, families: None })
 }
 
 fn mode(value: &Value) -> Result<Unproved, Fault> {

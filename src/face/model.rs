@@ -204,6 +204,9 @@ pub fn verify(certificates: &str, file: Option<&str>) -> Result<Value> {
             Ok(Holds::OutOfReach) => {
                 json!({ "holds": true, "complex": null, "real": 0, "mobility": null, "fault": null })
             }
+            Ok(Holds::Families(_)) => {
+                json!({ "holds": true, "complex": null, "real": null, "mobility": null, "fault": null })
+            }
             Ok(Holds::Mobility(dimension)) => {
                 json!({ "holds": true, "complex": null, "real": null, "mobility": dimension, "fault": null })
             }

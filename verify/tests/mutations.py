@@ -34,6 +34,15 @@ def leaves(value, path=()):
         yield path, value
 
 
+def replaced(certificate, path, value):
+    other = copy.deepcopy(certificate)
+    place = other
+    for key in path[:-1]:
+        place = place[key]
+    place[path[-1]] = value
+    return other
+
+
 def changed(certificate):
     """(place, certificate with one digit changed) for every number."""
     for path, value in leaves(certificate):
@@ -42,13 +51,16 @@ def changed(certificate):
             digits = [k for k in range(number.start(), number.end()) if text[k].isdigit()][:3]
             digit = digits[(at + len(path)) % len(digits)]
             own = text[:digit] + str((int(text[digit]) + 3) % 10) + text[digit + 1:]
-            other = copy.deepcopy(certificate)
-            place = other
-            for key in path[:-1]:
-                place = place[key]
-            place[path[-1]] = type(value)(own)
             name = next((str(key) for key in path if key in FREE), "/".join(str(k) for k in path if isinstance(k, str)))
-            yield name, other
+            yield name, replaced(certificate, path, type(value)(own))
+
+
+def turned(certificate):
+    """The certificate with one sign of a polynomial changed, for every sign of the families."""
+    for path, value in leaves(certificate):
+        for sign in re.finditer("[+-]", value if "families" in path else ""):
+            own = value[:sign.start()] + ("-" if sign.group() == "+" else "+") + value[sign.end():]
+            yield f"signs of {path[-2]}", replaced(certificate, path, own)
 
 
 def accepted_by_python(certificate):
@@ -79,7 +91,8 @@ def table(paths):
     counts = collections.Counter()
     for path in paths:
         for _, certificate in verify.certificates(path):
-            places, others = zip(*changed(certificate))
+            is_symbolic = certificate["claim"]["verb"] == "conditions"
+            places, others = zip(*changed(certificate), *(turned(certificate) if is_symbolic else ()))
             answers = {"python": map(accepted_by_python, others), "rust": accepted_by_rust(others)}
             for checker, accepted in answers.items():
                 for place, one in zip(places, accepted):

@@ -272,6 +272,65 @@ def test_closure_polynomials_are_certified(tmp_path, checker, entry):
         assert answer.returncode in (1, 2) and "holds" not in answer.stdout, (name, answer)
 
 
+@pytest.fixture(scope="session")
+def of_four_joints(certificates):
+    answer = run(LOOPROOT, "conditions", "4R", "-q", "--certificate", certificates / "conditions")
+    assert answer.returncode == 0 and not answer.stderr, answer
+    return certificates / "conditions"
+
+
+@pytest.mark.parametrize("checker", CHECKERS)
+def test_families_of_loops_that_move_are_certified(of_four_joints, tmp_path, checker):
+    answer = CHECKERS[checker](of_four_joints)
+    assert answer.returncode == 0, answer
+    true = json.loads(of_four_joints.read_text())
+    families = true["claim"]["families"]
+    of = lambda *families, **others: {"claim": {**true["claim"], "families": list(families), **others}}
+    first, second, last = families[0], families[1], families[-1]
+    forged = {
+        "a family left out": of(*families[1:]),
+        "a family twice": of(first, first, *families[2:]),
+        "the curve of another family": of({**first, "motion": second["motion"]}, *families[1:]),
+        "the lengths of another family": of({**first, "conditions": [*first["conditions"][:4], families[8]["conditions"][4],
+                                                                     *first["conditions"][5:]]}, *families[1:]),
+        "a condition of lengths left out": of({**first, "conditions": [*first["conditions"][:3], "a1 - a3", *first["conditions"][4:]]},
+                                              *families[1:]),
+        "a condition that says nothing": of({**first, "conditions": [*first["conditions"][:3], "0", *first["conditions"][4:]]},
+                                            *families[1:]),
+        "offsets that differ from 0": of({**first, "conditions": first["conditions"][:8]}, *families[1:]),
+        "an angle that is fixed": of({**first, "motion": ["x2", *first["motion"][1:]]}, *families[1:]),
+        "another class": of({**first, "class": "spherical"}, *families[1:]),
+        "spherical loops with a length": of(*families[:-1], {**last, "conditions": [*last["conditions"][:7], "d3"]}),
+        "another curve of spherical loops": of(*families[:-1], {**last, "motion": first["motion"][2:]}),
+        "any twists": of(*families, oblique_links=[1, 2, 3]),
+        "other joints": of(*families, moving_joints=[1, 3]),
+        "another status": of(*families, status="incomplete"),
+        "five joints": {"data": {"joints": 5}},
+        "a mechanism": {"data": {"joints": 4, "mechanism": {}}},
+        "no proof": {"proof": []},
+        "another proof": {"proof": [{"kind": "curve"}]},
+        "two proofs": {"proof": true["proof"] * 2},
+        "a polynomial that is not multiplied out": of({**first, "motion": [first["motion"][0], "(x1 + x3)", first["motion"][2]]},
+                                                      *families[1:]),
+        "a power that takes long": of({**first, "motion": [first["motion"][0], "x1^99999999999999999999 + x3", first["motion"][2]]},
+                                      *families[1:]),
+        "what is no polynomial": of({**first, "motion": [first["motion"][0], "x1 +", first["motion"][2]]}, *families[1:]),
+        "no text": of({**first, "motion": [first["motion"][0], 7, first["motion"][2]]}, *families[1:]),
+    }
+    for name, change in forged.items():
+        answer = CHECKERS[checker](written(tmp_path / "forged", {**true, **change}))
+        assert answer.returncode in (1, 2) and "holds" not in answer.stdout, (name, answer)
+        assert "Traceback" not in answer.stderr and "panicked" not in answer.stderr, (name, answer)
+    answer = CHECKERS[checker](of_four_joints, "--file", "equations/overconstrained/bennett_a.toml")
+    assert answer.returncode == 2 and "file" in answer.stdout, answer
+
+
+def test_no_number_and_no_sign_of_the_families_may_change(of_four_joints, capsys):
+    sys.path.insert(0, str(pathlib.Path(__file__).parent))
+    import mutations
+    assert mutations.main([str(of_four_joints)]) == 0, capsys.readouterr().out
+
+
 AS_BUILT = """
 [mechanism]
 kind = "arm"

@@ -441,6 +441,9 @@ pub struct ConditionsOptions {
     /// The whole derivation in Markdown with LaTeX formulas
     #[arg(long, conflicts_with_all = ["json", "format"])]
     pub explain: bool,
+    /// 4R: write a certificate of its families to this file: `looproot verify` and verify/verify.py check it
+    #[arg(long, value_name = "FILE")]
+    pub certificate: Option<PathBuf>,
     /// Seed of the numbers that are drawn: the same seed repeats an answer [default: 1 of five and six
     /// joints, else drawn]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..1 << 53))]

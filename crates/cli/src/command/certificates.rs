@@ -1,11 +1,14 @@
 //! The file of `--certificate`.
 
 use looproot::internal::catalogue::entry::{Case, Entry};
+use looproot::internal::conditions::four_bar::FourBar;
 use looproot::internal::derivation::Derivation;
 use looproot::internal::error::Error;
 use looproot::internal::mechanism::Solution;
 use looproot::internal::mobility::Mobility;
-use looproot::internal::report::certificate::{certificate, certificate_of_motion, certificate_of_polynomial};
+use looproot::internal::report::certificate::{
+    certificate, certificate_of_conditions, certificate_of_motion, certificate_of_polynomial,
+};
 use looproot::internal::report::model::case_noun;
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -42,18 +45,21 @@ impl Certificates {
         case: &Case,
         derivation: &Derivation,
     ) -> Result<(), Error> {
-        match certificate_of_polynomial(entry, number, case, derivation) {
-            Ok(value) => self.write(&format!("{value}\n")),
-            Err(reason) => {
-                let _ = writeln!(std::io::stderr(), "note: no certificate: {reason}");
-                Ok(())
-            }
-        }
+        self.add_one(certificate_of_polynomial(entry, number, case, derivation))
+    }
+
+    /// Writes the certificate of the families of loops of four rotations, or reports on stderr why there is none.
+    pub fn add_conditions(&mut self, theorem: &FourBar) -> Result<(), Error> {
+        self.add_one(certificate_of_conditions(theorem))
     }
 
     /// Writes the certificate of the mobility of a loop, or reports on stderr why there is none.
     pub fn add_motion(&mut self, entry: &Entry, answer: &Mobility) -> Result<(), Error> {
-        match certificate_of_motion(entry, answer) {
+        self.add_one(certificate_of_motion(entry, answer))
+    }
+
+    fn add_one(&mut self, certificate: Result<serde_json::Value, String>) -> Result<(), Error> {
+        match certificate {
             Ok(value) => self.write(&format!("{value}\n")),
             Err(reason) => {
                 let _ = writeln!(std::io::stderr(), "note: no certificate: {reason}");

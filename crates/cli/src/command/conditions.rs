@@ -1,6 +1,7 @@
 //! `looproot conditions`
 
 use super::arguments::ConditionsOptions;
+use super::certificates::Certificates;
 use super::exit::{Exit, Fault};
 use super::output::Output;
 use super::seed::plant;
@@ -20,6 +21,13 @@ use std::time::Instant;
 /// Derives the conditions on the parameters for a loop to move.
 pub fn run(options: &ConditionsOptions) -> std::result::Result<Exit, Fault> {
     plant(options.seed);
+    if options.certificate.is_some() && !options.mechanism.eq_ignore_ascii_case("4R") {
+        let message = format!(
+            "found --certificate with {}, expected 4R: others have no certificate of conditions yet",
+            options.mechanism
+        );
+        return Err(Error::Unsupported(message).into());
+    }
     let ansatz = read(options)?;
     match ansatz.joints.len() {
         4 => {}
@@ -31,6 +39,11 @@ pub fn run(options: &ConditionsOptions) -> std::result::Result<Exit, Fault> {
     let start = Instant::now();
     let theorem = derive();
     let derived = start.elapsed().as_secs_f64() * 1e6;
+    if let Some(path) = &options.certificate {
+        let mut certificates = Certificates::new(path);
+        certificates.add_conditions(&theorem)?;
+        certificates.close()?;
+    }
     // Irrational numbers are kept exactly if one field holds them all.
     let chain = ansatz.chain.as_ref().filter(|_| ansatz.rounded);
     let decision = match chain.and_then(|chain| decide_over_field(&theorem, chain)) {

@@ -53,7 +53,8 @@ pub const CONDITIONS: &str = "\
 Examples:
   looproot conditions 4R                              all loops of four revolutes that move
   looproot conditions loop.toml --explain             with the derivation
-  looproot conditions 4R --format sympy --family spherical";
+  looproot conditions 4R --format sympy --family spherical
+  looproot conditions 4R --certificate 4r.cert        which looproot verify checks";
 
 /// Examples of `motion`.
 pub const MOTION: &str = "\
