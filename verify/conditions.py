@@ -105,14 +105,14 @@ def on_curve(slopes, twists, conditions, motion):
     for x, p in zip(X[1:], motion):
         cos = p.derivative(str(x))
         angles.append((cos * x - p, cos))
-        require(all(only_in(part, 0, 1, FIRST) for part in angles[-1]), "an angle does not follow from the first one")
+        follows = all(only_in(part, 0, 1, FIRST) for part in angles[-1]) and cos.gcd(angles[-1][0]) == 1
+        require(follows, "an angle does not follow from the first one")
     require(set(parts(motion[2], FIRST, FOURTH)) in ({(1, 1), (0, 0)}, {(1, 0), (0, 1)}), "a curve may have factors")
     columns = [parts(insert(p, {**twists, FOURTH: angles[3]}), FIRST) for p in slopes]
     rows, others = ([[own[power] for own in some] for power in sorted(set().union(*some))] for some in (columns[:4], columns[4:]))
-    allowed = math.prod(angles[3])
     require(all(sum((x * a for x, a in zip(row, lengths)), ZERO) == 0 for row in rows), "the lengths are others")
-    require(len(rows) == 3 and any(never_zero(p, allowed) for p in minors(rows, 4)), "there may be other lengths")
-    require(len(others) == 2 and never_zero(determinant(others), allowed), "there may be offsets")
+    require(len(rows) == 3 and any(never_zero(p, math.prod(angles[3])) for p in minors(rows, 4)), "there may be other lengths")
+    require(len(others) == 2 and never_zero(determinant(others), math.prod(angles[3])), "there may be offsets")
     tangents = [twists.get(k, (T[k], ONE)) for k in range(4)]
     loop = zip(angles, tangents, lengths)
     motions = [screw(*part) for x, t, a in loop for part in ((3, x, ZERO), (1, t, a * A[0]))]

@@ -27,6 +27,8 @@ def polynomial(text):
 
 def factor(text):
     name, _, power = text.partition("^")
+    if len(power) > 1:
+        raise Unreadable(f"found {text[:40]!r}, expected an exponent of one digit")
     return RING.gen(NAMES.index(name)) ** int(power or 1) if name in NAMES else RING.constant(int(text))
 
 

@@ -49,9 +49,9 @@ def check(certificate, of_file):
         raise Unreadable(f"found format {str(form)[:40]!r}, version {str(version)[:20]}, expected looproot-certificate, version 1")
     if claim.get("verb") not in VERBS or not items(proof):
         raise Refused("claim: only answers of solve, derive, mobility and conditions with a proof are covered")
-    is_of_one, has_input = claim["verb"] != "conditions", claim["verb"] != "mobility"
-    system = Reader().system(data, has_input) if is_of_one else None
-    if of_file and not is_of_one or of_file and not any(is_same(system, own) for own in of_file(has_input)):
+    has_input = claim["verb"] != "mobility"
+    system = Reader().system(data, has_input) if claim["verb"] != "conditions" else None  # those are about no mechanism
+    if of_file and not (system and any(is_same(system, own) for own in of_file(has_input))):
         raise Refused("file: the data of the certificate are those of no case of the file")
     found = {"verb": claim["verb"], "proof": "proved", **VERBS[claim["verb"]](system, data, claim, modes, *proof)}
     plain = lambda value: json.dumps(value, sort_keys=True)

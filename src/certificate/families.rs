@@ -89,7 +89,8 @@ fn polynomial(value: &Value) -> Result<Poly, Fault> {
     let Some(read) = Expression::parse(written, &mut names).ok().and_then(|read| read.expand().ok()) else {
         return no();
     };
-    if read.denominator == Int::one() && text_of(&read.numerator, &names) == written {
+    let is_low = read.numerator.degrees().iter().all(|degree| *degree < 10);
+    if is_low && read.denominator == Int::one() && text_of(&read.numerator, &names) == written {
         Ok(read.numerator)
     } else {
         no()
@@ -391,7 +392,8 @@ impl Closure {
             let cos = p.derivative(x);
             let sin = cos.mul(&Poly::variable(x)).sub(p);
             let follows = [&sin, &cos].into_iter().all(|part| is_only_in(part, &[0, 1, JOINTS]));
-            require(follows, "an angle does not follow from the first one")?;
+            // Where both were 0 the relation would say nothing.
+            require(follows && sin.gcd(&cos) == one, "an angle does not follow from the first one")?;
             angles.push((sin, cos));
         }
         let powers: Vec<[u32; 2]> = parts(&family.motion[2], ENDS).into_keys().collect();

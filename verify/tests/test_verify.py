@@ -299,6 +299,7 @@ def test_families_of_loops_that_move_are_certified(of_four_joints, tmp_path, che
                                             *families[1:]),
         "offsets that differ from 0": of({**first, "conditions": first["conditions"][:8]}, *families[1:]),
         "an angle that is fixed": of({**first, "motion": ["x2", *first["motion"][1:]]}, *families[1:]),
+        "an angle of which nothing is said": of({**first, "motion": [first["motion"][0], "0", first["motion"][2]]}, *families[1:]),
         "another class": of({**first, "class": "spherical"}, *families[1:]),
         "spherical loops with a length": of(*families[:-1], {**last, "conditions": [*last["conditions"][:7], "d3"]}),
         "another curve of spherical loops": of(*families[:-1], {**last, "motion": first["motion"][2:]}),
@@ -314,6 +315,8 @@ def test_families_of_loops_that_move_are_certified(of_four_joints, tmp_path, che
                                                       *families[1:]),
         "a power that takes long": of({**first, "motion": [first["motion"][0], "x1^99999999999999999999 + x3", first["motion"][2]]},
                                       *families[1:]),
+        "a power of a condition that takes long": of({**first, "conditions": [
+            *first["conditions"][:4], first["conditions"][4].replace("t1^2", "t1^999999999"), *first["conditions"][5:]]}, *families[1:]),
         "what is no polynomial": of({**first, "motion": [first["motion"][0], "x1 +", first["motion"][2]]}, *families[1:]),
         "no text": of({**first, "motion": [first["motion"][0], 7, first["motion"][2]]}, *families[1:]),
     }
