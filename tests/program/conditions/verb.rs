@@ -135,3 +135,20 @@ fn of_rounded_numbers_nothing_is_proved() {
     let answer: Value = serde_json::from_str(&run.out).unwrap();
     assert_eq!((run.code, &answer["proved"], &answer["proof"]), (2, &false.into(), &"rounded-data".into()));
 }
+
+#[test]
+fn certificates_are_of_the_general_loop_of_four_joints() {
+    let path = std::env::temp_dir().join(format!("looproot-conditions-{}.cert", std::process::id()));
+    let path = path.to_str().unwrap();
+    let written = run(&["4r", "--quiet", "--certificate", path], "");
+    assert_eq!((written.code, written.err.as_str()), (0, ""));
+    let checked = verb("verify", &[path], "");
+    assert!(checked.code == 0 && checked.out.contains("holds: 17 families"), "{}{}", checked.out, checked.err);
+    let of_a_file = verb("verify", &[path, "--file", "bennett_a"], "");
+    assert!(of_a_file.code == 2 && of_a_file.out.contains("refused: file"), "{}", of_a_file.out);
+    std::fs::remove_file(path).unwrap();
+    for other in ["5R", "bennett"] {
+        let refused = run(&[other, "--certificate", path], "");
+        assert!(refused.code == 4 && refused.err.contains("expected 4R"), "{other}: {} {}", refused.code, refused.err);
+    }
+}
