@@ -291,7 +291,7 @@ def test_families_of_loops_that_move_are_certified(of_four_joints, tmp_path, che
         "a family left out": of(*families[1:]),
         "a family twice": of(first, first, *families[2:]),
         "the curve of another family": of({**first, "motion": second["motion"]}, *families[1:]),
-        "the lengths of another family": of({**first, "conditions": [*first["conditions"][:4], families[8]["conditions"][4],
+        "the lengths of another family": of({**first, "conditions": [*first["conditions"][:4], second["conditions"][4],
                                                                      *first["conditions"][5:]]}, *families[1:]),
         "a condition of lengths left out": of({**first, "conditions": [*first["conditions"][:3], "a1 - a3", *first["conditions"][4:]]},
                                               *families[1:]),
