@@ -63,7 +63,10 @@ impl fmt::Display for Holds {
             Self::Real(real) => write!(f, "{real} real solutions: complete, proved"),
             Self::OutOfReach => write!(f, "no real solution: proved"),
             Self::Families(count) => {
-                write!(f, "{count} families of loops of four oblique links of which joints 1 and 4 move: complete, proved")
+                write!(
+                    f,
+                    "{count} families of loops of four oblique links of which joints 1 and 4 move: complete, proved"
+                )
             }
             Self::Mobility(0) => write!(f, "immobile, of dimension 0: proved"),
             Self::Mobility(dimension) => write!(f, "mobile, of dimension {dimension}: proved"),

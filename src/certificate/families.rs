@@ -159,7 +159,10 @@ pub(super) fn check_families(
     let pair = Closure::derive();
     let centre: Vec<Poly> = (LENGTHS..JOINTS).map(Poly::variable).collect();
     let is_spherical = spherical.class == "spherical" && spherical.conditions == centre;
-    require(is_spherical && spherical.motion == [pair.f.clone()], "the last family is not that of axes through one point")?;
+    require(
+        is_spherical && spherical.motion == [pair.f.clone()],
+        "the last family is not that of axes through one point",
+    )?;
     let coefficients = pair.in_general()?;
     sines(&coefficients)?;
     pair.on_deltoids()?;
@@ -267,9 +270,12 @@ fn related(pairs: [[usize; 2]; 2]) -> impl Iterator<Item = Twists> {
         let inserted = both.map(|(sign, [i, j])| {
             (j, if is_inverse { (whole(sign), t(i)) } else { (t(i).mul(&whole(sign)), Poly::one()) })
         });
-        let relations = both.map(|(sign, [i, j])| {
-            if is_inverse { t(i).mul(&t(j)).sub(&whole(sign)) } else { t(i).sub(&t(j).mul(&whole(sign))) }
-        });
+        let relations =
+            both.map(
+                |(sign, [i, j])| {
+                    if is_inverse { t(i).mul(&t(j)).sub(&whole(sign)) } else { t(i).sub(&t(j).mul(&whole(sign))) }
+                },
+            );
         Twists { inserted, relations }
     })
 }
@@ -381,9 +387,10 @@ impl Closure {
             .map(|p| (LENGTHS..OFFSETS).map(|k| p.derivative(k)).collect::<Vec<_>>())
             .collect();
         let variables: Vec<Poly> = (LENGTHS..OFFSETS).map(Poly::variable).collect();
-        let are_linear = table.iter().zip(&family.conditions[2..5]).all(|(row, p)| {
-            combined(row, &variables) == *p && row.iter().all(|x| is_only_in(x, &[0, 1]))
-        });
+        let are_linear = table
+            .iter()
+            .zip(&family.conditions[2..5])
+            .all(|(row, p)| combined(row, &variables) == *p && row.iter().all(|x| is_only_in(x, &[0, 1])));
         require(are_linear, "the conditions of lengths are not linear")?;
         let lengths = minors(&table);
         require(lengths.iter().any(|p| is_never_zero(p, &one)), "the lengths are not determined")?;

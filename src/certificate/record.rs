@@ -85,7 +85,16 @@ fn claim(value: &Value) -> Result<Claim, Fault> {
         let [verb, status, word, families, links, joints] = fields(value, needed, &[])?;
         let (verb, status, proof) = words(verb, status, word)?;
         let families = Some(families::Claim::read(families, links, joints)?);
-        return Ok(Claim { verb, status, proof, complex: None, real: None, mobility: None, polynomial: None, families });
+        return Ok(Claim {
+            verb,
+            status,
+            proof,
+            complex: None,
+            real: None,
+            mobility: None,
+            polynomial: None,
+            families,
+        });
     }
     let of_polynomial = ["unknown", "degree", "polynomial"];
     let is_derived = value.get("verb").and_then(Value::as_str) == Some("derive");

@@ -79,7 +79,8 @@ pub fn geared(linkage: &Linkage, closure: &Closure, group: &Group, state: &State
     let exact = |n: &Number| n.z.exact.as_ref()?.to_gaussian();
     let factors: Option<Vec<Gaussian>> = meshes.iter().map(|mesh| exact(&mesh.factor)).collect();
     let (Some(cycles), Some(factors)) = (equations.exact(), factors) else {
-        let undecided = || Solved::Undecided("a group with gears stands on an assembly whose numbers are not rational".to_owned());
+        let undecided =
+            || Solved::Undecided("a group with gears stands on an assembly whose numbers are not rational".to_owned());
         return only.and_then(wheel_by_roots).map_or_else(undecided, Solved::Roots);
     };
     let unknowns = unknowns(equations);

@@ -108,7 +108,9 @@ impl Choice {
 pub fn general(equations: &Equations<Number>) -> Found {
     let known = equations.exact();
     let is_rounded = known.is_none();
-    let Some(exact) = known.or_else(|| equations.rounded()) else { return Found::nothing("no approximation of the data") };
+    let Some(exact) = known.or_else(|| equations.rounded()) else {
+        return Found::nothing("no approximation of the data");
+    };
     let approximate = exact.map(|n| Some(n.map(|z| Complex::new(z.re.to_f64(), z.im.to_f64()))));
     let Some(approximate) = approximate else { return Found::nothing("no approximation of the data") };
     let mut found =

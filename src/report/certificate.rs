@@ -1,14 +1,14 @@
 //! The certificate of an answer: docs/certificate.md.
 
+use crate::algebra::polynomial::Polynomial;
+use crate::algebra::ring::Ring;
 use crate::assembly::{Assembly, Roots, Solver, Workspace};
 use crate::catalogue::entry::{Case, Design, Entry};
 use crate::certificate::{
-    Ball, ChainClosure, Closed, FAMILIES, FORMAT, Fault, Listed, Near, VERSION, balls, check, claim_of_families, closed, data_of, data_of_loop,
-    proof_by_distance, proof_of, proof_of_motion, proof_of_own, proof_of_points, proof_of_polynomial,
-    proof_of_real_list, proof_of_rest,
+    Ball, ChainClosure, Closed, FAMILIES, FORMAT, Fault, Listed, Near, VERSION, balls, check, claim_of_families,
+    closed, data_of, data_of_loop, proof_by_distance, proof_of, proof_of_motion, proof_of_own, proof_of_points,
+    proof_of_polynomial, proof_of_real_list, proof_of_rest,
 };
-use crate::algebra::polynomial::Polynomial;
-use crate::algebra::ring::Ring;
 use crate::conditions::four_bar::{self, FourBar};
 use crate::derivation::Derivation;
 use crate::derivation::transference::Variables;
@@ -209,25 +209,34 @@ pub fn certificate_of_motion(entry: &Entry, answer: &Mobility) -> Result<Value, 
 /// A clause that says why there is none.
 pub fn certificate_of_conditions(theorem: &FourBar) -> Result<Value, String> {
     let x = |k: usize| Polynomial::variable(Variables::X + k);
-    let mut families: Vec<Listed> = theorem.bennett.iter().map(|bennett| {
-        let mut conditions = four_bar::conditions(bennett);
-        // The twist of link 3 comes before that of link 4.
-        if conditions[0].degree(Variables::twist(2)) == 0 {
-            conditions.swap(0, 1);
-        }
-        let follows = |k: usize| {
-            let (above, below) = &bennett.angles[k];
-            below.mul(&x(k)).sub(above)
-        };
-        Listed { class: "bennett", conditions, motion: vec![follows(1), follows(2), follows(3)] }
-    }).collect();
+    let mut families: Vec<Listed> = theorem
+        .bennett
+        .iter()
+        .map(|bennett| {
+            let mut conditions = four_bar::conditions(bennett);
+            // The twist of link 3 comes before that of link 4.
+            if conditions[0].degree(Variables::twist(2)) == 0 {
+                conditions.swap(0, 1);
+            }
+            let follows = |k: usize| {
+                let (above, below) = &bennett.angles[k];
+                below.mul(&x(k)).sub(above)
+            };
+            Listed { class: "bennett", conditions, motion: vec![follows(1), follows(2), follows(3)] }
+        })
+        .collect();
     families.push(Listed {
         class: "spherical",
-        conditions: (0..4).map(Variables::length).chain((0..4).map(Variables::offset)).map(Polynomial::variable).collect(),
+        conditions: (0..4)
+            .map(Variables::length)
+            .chain((0..4).map(Variables::offset))
+            .map(Polynomial::variable)
+            .collect(),
         // The program numbers joint 4 behind joint 1 where there are no others.
         motion: vec![theorem.pair.f.substitute(Variables::Y, &x(3))],
     });
-    let info = json!({ "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": "4R", "title": "General 4R loop" });
+    let info =
+        json!({ "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": "4R", "title": "General 4R loop" });
     let claim = claim_of_families(&families);
     accepted(&info, &json!({ "joints": 4 }), &claim, &[], &[json!({ "kind": FAMILIES })])
 }
