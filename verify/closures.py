@@ -1,11 +1,11 @@
 """Closure equations, and the proof that a ball holds one solution of them: theorem 1 of docs/certificate.md."""
-from flint import acb, acb_mat, acb_series, arb
+from flint import acb, acb_mat, acb_series, arb, fmpq
 
 from motions import IDENTITY, along, column, difference, dot, of_quaternion, times, turn
 from quantities import Refused, Unreadable, decimal, fields, items, whole
 
 TURN, SLIDE = "turn", "slide"
-MOST_RADIUS = arb(1) / 1000
+MOST_RADIUS = fmpq(1, 1000)
 
 
 class Chain:
@@ -124,11 +124,11 @@ def proved_modes(system, values):
     modes = []
     for at, value in enumerate(items(values), 1):
         point, radius = centre_of(system, value)
-        _, _, real, multiplicity = fields(value, ("centre", "radius", "real", "multiplicity"))
+        _, size, real, multiplicity = fields(value, ("centre", "radius", "real", "multiplicity"))
         if not isinstance(real, bool):
             raise Unreadable(f"mode {at}: found {str(real)[:20]!r} as `real`, expected true or false")
-        if not 0 < radius < MOST_RADIUS:
-            raise Refused(f"mode {at}: the radius is not between 0 and 1/1000")
+        if not 0 < decimal(size) <= MOST_RADIUS:
+            raise Refused(f"mode {at}: the radius is not above 0 and at most 1/1000")
         if whole(multiplicity) != 1:
             raise Refused(f"mode {at}: multiplicity {multiplicity}, where a ball of an isolated simple solution counts 1")
         if not holds_one(system, point, radius):

@@ -61,7 +61,7 @@ fn all<const N: usize>(closure: &impl Closure<N>, balls: &[Ball]) -> Result<(), 
             return super::fault::unreadable(format!("mode {at}: found {} unknowns, expected {N}", ball.centre.len()));
         }
         if ball.radius <= 0 || ball.radius > Rational::from((1, 1000)) {
-            return refused(format!("mode {at}: the radius is not between 0 and 1/1000"));
+            return refused(format!("mode {at}: the radius is not above 0 and at most 1/1000"));
         }
         let is_proved = holds_one::<N, Nearby>(closure, ball)
             || holds_one::<N, Doubled>(closure, ball)
