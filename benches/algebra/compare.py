@@ -95,9 +95,9 @@ def flint_job(job):
         return tell(seconds, real, real)
     context = flint.fmpz_mpoly_ctx.get(job["vars"], flint.Ordering.lex)
     names = dict(zip(job["vars"], context.gens()))
-    if kind in ("mul", "res"):
+    if kind in ("mul", "res", "gcd"):
         f, g = evaluated(job["f"], names), evaluated(job["g"], names)
-        run = (lambda: f * g) if kind == "mul" else (lambda: f.resultant(g, job["elim"]))
+        run = {"mul": lambda: f * g, "res": lambda: f.resultant(g, job["elim"]), "gcd": lambda: f.gcd(g)}[kind]
     else:
         def run():
             p = evaluated(job["expr"], names)
@@ -131,9 +131,9 @@ def symbolica_job(job):
         return tell(time.process_time() - start, len(roots), len(roots))
     names = [E(v) for v in job["vars"]]
     polynomial = lambda text: E(text).expand().to_polynomial(vars=names)
-    if kind in ("mul", "res"):
+    if kind in ("mul", "res", "gcd"):
         f, g = polynomial(job["f"]), polynomial(job["g"])
-        run = (lambda: f * g) if kind == "mul" else (lambda: f.resultant(g, E(job["elim"])))
+        run = {"mul": lambda: f * g, "res": lambda: f.resultant(g, E(job["elim"])), "gcd": lambda: f.gcd(g)}[kind]
     else:
         def run():
             p = E(job["expr"]).to_polynomial(vars=names)
@@ -142,7 +142,8 @@ def symbolica_job(job):
             return p
     p, seconds = timed(run, 6 if kind == "mul" else 1.5)
     value = ""
-    if kind != "mul":
+    # Products are long, and a greatest common divisor is known up to a rational factor here.
+    if kind not in ("mul", "gcd"):
         e = p.to_expression()
         for name, point in zip(job["vars"], POINTS):
             e = e.replace(E(name), E(str(point)))
@@ -166,8 +167,9 @@ def pari_job(job):
     elif kind == "res":
         given, run = f"first={job['f']};second={job['g']};", f"polresultant(first,second,{job['elim']})"
         value = "answer"
-    elif kind == "mul":
-        given, run, value = f"first={job['f']};second={job['g']};", "first*second", "answer"
+    elif kind in ("mul", "gcd"):
+        run = {"mul": "first*second", "gcd": "gcd(first,second)"}[kind]
+        given, value = f"first={job['f']};second={job['g']};", "answer"
     else:
         given, run = f"divisor={job.get('div') or 1};", f"product={job['expr']};for(i=1,{job.get('times', 0)},product=product\\divisor);product"
         value = "answer"
