@@ -10,7 +10,7 @@ long one. looproot's time includes reading: texts to numbers and polynomials, cl
 from their own finished structures. Of several rounds the least time counts. Results are compared modulo a prime, up to
 sign; a disagreement ends the comparison.
 """
-import argparse, ctypes, glob, json, os, re, shutil, subprocess, sys, time
+import argparse, ctypes, glob, json, os, re, shutil, signal, subprocess, sys, time
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -196,12 +196,14 @@ def run_peer(peer, job, limit=60):
         "looproot": [PROGRAM, "poly", "job", str(HERE / "jobs" / f"{job}.json")],
     }.get(peer, [sys.executable, __file__, "--peer", peer, job])
     environment = dict(os.environ, SYMBOLICA_HIDE_BANNER="1")
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment)
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment,
+                               start_new_session=True)
     timer = time.time()
     try:
         text, _ = process.communicate(timeout=limit)
     except subprocess.TimeoutExpired:
-        process.kill()
+        # PARI is a process of the process.
+        os.killpg(process.pid, signal.SIGKILL)
         process.communicate()
         return {"failure": f"> {time.time() - timer:.0f} s"}
     found = re.search(r"^T\s+(\S+)", text, re.M)
