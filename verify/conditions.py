@@ -3,11 +3,12 @@ import functools
 import itertools
 import math
 
-from quantities import Refused, fields, items
+from quantities import Refused, fields, items, whole
 from symbols import A, D, ONE, T, X, ZERO, around, determinant, insert, minors, never_zero, parts, polynomial, screw
 
 FIRST, FOURTH = 12, 15  # the places of x1 and x4 among the variables
 EVEN = [(2, 2), (2, 0), (0, 2), (0, 0), (1, 1)]  # the exponents of x1 and x4 in f, and those of its coefficients A, B, C, E, M
+ODD = {(1, 0), (1, 2), (0, 1), (2, 1)}  # those of offsets in g
 # Pairs of A, B, C, E that are 0 where f has a factor x1, x4, or one of those at infinity, and what moves f to the odd multiple of the rest.
 FOLDS = {("A", "C"): (0, 1), ("B", "E"): (0, -1), ("A", "B"): (1, 0), ("C", "E"): (-1, 0)}
 ISOGRAMS, DELTOIDS = [((0, 2), (1, 3))], [((0, 1), (2, 3)), ((0, 3), (1, 2))]  # pairs of links
@@ -32,7 +33,7 @@ def in_general(f, g, slopes):
     require(sum((p * x for p, x in zip(slopes, (*A, D[0], D[3]))), ZERO) == g, "g is not linear in lengths and offsets")
     curve, *lengths, d1, d4 = (parts(p, FIRST, FOURTH) for p in (f, *slopes))
     are_even = all(set(own) <= set(EVEN) for own in (curve, *lengths))
-    require(are_even and not set(EVEN) & {*d1, *d4}, "f or g have other terms")
+    require(are_even and {*d1, *d4} <= ODD, "f or g have other terms")
     a, b, c, e, m = (curve[powers] for powers in EVEN)
     square = (m * m - 4 * a * e - 4 * b * c) ** 2 - 64 * a * b * c * e
     require(never_zero(m) and never_zero(square), "f may have factors of another kind")
@@ -114,8 +115,7 @@ def on_curve(slopes, twists, conditions, motion):
     require(len(rows) == 3 and any(never_zero(p, math.prod(angles[3])) for p in minors(rows, 4)), "there may be other lengths")
     require(len(others) == 2 and never_zero(determinant(others), math.prod(angles[3])), "there may be offsets")
     tangents = [twists.get(k, (T[k], ONE)) for k in range(4)]
-    loop = zip(angles, tangents, lengths)
-    motions = [screw(*part) for x, t, a in loop for part in ((3, x, ZERO), (1, t, a * A[0]))]
+    motions = [screw(*part) for x, t, a in zip(angles, tangents, lengths) for part in ((3, x, ZERO), (1, t, a * A[0]))]
     (_, *vector), dual = around(*motions)
     require(all(p == 0 for p in (*vector, *dual)), "the loop opens")
 
@@ -141,7 +141,7 @@ def four_joints(system, data, claim, modes, item, *others):
     """All families of loops of four rotations of which no twist is a multiple of pi and joints 1 and 4 move."""
     fields(item, ("kind",))
     items(modes, 0)
-    require(item["kind"] == "families" and not others and data == {"joints": 4}, "only loops of four joints have such a proof")
+    require(item["kind"] == "families" and not others and whole(*fields(data, ("joints",))) == 4, "only loops of four joints have such a proof")
     *bennett, spherical = map(family, items(claim["families"], 17), [("bennett", 9, 3)] * 16 + [("spherical", 8, 1)])
     f, slopes = checked_closure()
     require(spherical == [[*A, *D], [f]], "the last family is not that of axes through one point")

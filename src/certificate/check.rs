@@ -46,8 +46,7 @@ pub enum Holds {
     OutOfReach,
     /// A closed loop moves in this many dimensions; 0 means that it does not move.
     Mobility(usize),
-    /// All loops of four rotations that move are of these families, so many: no twist is a multiple of pi, and two neighbouring joints
-    /// move.
+    /// All loops of four rotations that move are of so many families, if no twist is a multiple of pi and joints 1 and 4 move.
     Families(usize),
 }
 

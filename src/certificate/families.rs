@@ -32,6 +32,8 @@ const ENDS: [usize; 2] = [JOINTS, JOINTS + 3];
 const COLUMNS: [usize; 6] = [4, 5, 6, 7, OFFSETS, OFFSETS + 3];
 /// The exponents of x1 and x4 in the first closure equation, and those of its coefficients A, B, C, E and M.
 const EVEN: [[u32; 2]; 5] = [[2, 2], [2, 0], [0, 2], [0, 0], [1, 1]];
+/// The exponents of x1 and x4 with offsets in the second one.
+const ODD: [[u32; 2]; 4] = [[1, 0], [1, 2], [0, 1], [2, 1]];
 /// The coefficients A, B, C, E by their places in `EVEN`, two of which belong to no joint that stands still if they vanish together.
 const OPPOSITE: [[usize; 2]; 2] = [[0, 3], [1, 2]];
 /// Maximum number of characters of a polynomial.
@@ -313,7 +315,7 @@ impl Closure {
         let columns = self.slopes.each_ref().map(|slope| parts(slope, ENDS));
         let (lengths, offsets) = columns.split_at(4);
         let are_even = lengths.iter().chain([&curve]).all(|own| own.keys().all(|powers| EVEN.contains(powers)));
-        let are_odd = offsets.iter().all(|own| own.keys().all(|powers| !EVEN.contains(powers)));
+        let are_odd = offsets.iter().all(|own| own.keys().all(|powers| ODD.contains(powers)));
         require(are_even && are_odd, "f or g have other terms")?;
         let [a, b, c, e, m] = EVEN.map(|powers| at(&curve, powers));
         let four = whole(4);

@@ -68,7 +68,7 @@ use poly::arguments::PolyOptions;
 
 /// All solutions of kinematic closure equations, with a verdict on completeness.
 #[derive(Parser)]
-#[command(version, about, disable_help_subcommand = true, after_help = EXIT_CODES)]
+#[command(name = "looproot", version, about, disable_help_subcommand = true, after_help = EXIT_CODES)]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
