@@ -65,7 +65,7 @@ def determinant(rows):
 
 
 def minors(rows, count):
-    """Those of count - 1 rows of `count` entries, with signs: where one is not 0 they are the solution of the linear equations."""
+    """The minors of count - 1 rows of `count` entries, with signs, solve the linear equations of these rows where one of them is not 0."""
     return [(-1) ** k * determinant([row[:k] + row[k + 1:] for row in rows]) for k in range(count)]
 
 

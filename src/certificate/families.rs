@@ -230,7 +230,7 @@ fn insert(p: &Poly, quotients: &[(usize, Ratio)]) -> Result<Poly, Fault> {
     })
 }
 
-/// Returns the minors of n - 1 rows of n entries, with signs: where one is not 0 they are the solution of the linear equations.
+/// Returns the minors of n - 1 rows of n entries, with signs; where one of them is not 0, they solve the linear equations of the rows.
 fn minors(rows: &[Vec<Poly>]) -> Vec<Poly> {
     let without = |k: usize| {
         let row = |row: &Vec<Poly>| row[..k].iter().chain(&row[k + 1..]).cloned().collect();

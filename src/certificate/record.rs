@@ -27,6 +27,7 @@ pub(super) struct Record {
 }
 
 /// The claim of a certificate.
+#[derive(Default)]
 pub(super) struct Claim {
     pub verb: String,
     pub status: String,
@@ -69,32 +70,14 @@ fn claim(value: &Value) -> Result<Claim, Fault> {
     if is_mobility {
         let [verb, status, word, mobility] = fields(value, ["verb", "status", "proof", "mobility"], &[])?;
         let (verb, status, proof) = words(verb, status, word)?;
-        return Ok(Claim {
-            verb,
-            status,
-            proof,
-            complex: None,
-            real: None,
-            mobility: Some(count(mobility)?),
-            polynomial: None,
-            families: None,
-        });
+        return Ok(Claim { verb, status, proof, mobility: Some(count(mobility)?), ..Claim::default() });
     }
     if value.get("verb").and_then(Value::as_str) == Some("conditions") {
         let needed = ["verb", "status", "proof", "families", "oblique_links", "moving_joints"];
         let [verb, status, word, families, links, joints] = fields(value, needed, &[])?;
         let (verb, status, proof) = words(verb, status, word)?;
         let families = Some(families::Claim::read(families, links, joints)?);
-        return Ok(Claim {
-            verb,
-            status,
-            proof,
-            complex: None,
-            real: None,
-            mobility: None,
-            polynomial: None,
-            families,
-        });
+        return Ok(Claim { verb, status, proof, families, ..Claim::default() });
     }
     let of_polynomial = ["unknown", "degree", "polynomial"];
     let is_derived = value.get("verb").and_then(Value::as_str) == Some("derive");
@@ -113,7 +96,7 @@ fn claim(value: &Value) -> Result<Claim, Fault> {
     let [verb, status, word, real] = fields(value, ["verb", "status", "proof", "real"], &["complex"])?;
     let (verb, status, proof) = words(verb, status, word)?;
     let complex = value.get("complex").map(count).transpose()?;
-    Ok(Claim { verb, status, proof, complex, real: Some(count(real)?), mobility: None, polynomial, families: None })
+    Ok(Claim { verb, status, proof, complex, real: Some(count(real)?), polynomial, ..Claim::default() })
 }
 
 fn mode(value: &Value) -> Result<Unproved, Fault> {

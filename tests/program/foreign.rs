@@ -109,7 +109,7 @@ fn singular_finds_the_same_resultant() {
 }
 
 #[test]
-#[ignore = "needs Macaulay2"]
+#[ignore = "needs Macaulay2: cargo test --test program foreign:: -- --ignored"]
 fn macaulay2_counts_the_same_solutions() {
     let mut m2 = program("M2", "LOOPROOT_M2");
     let script = export(Format::Macaulay2) + "print toString (dim equations, degree equations)\n";
@@ -119,7 +119,7 @@ fn macaulay2_counts_the_same_solutions() {
 }
 
 #[test]
-#[ignore = "needs PARI/GP"]
+#[ignore = "needs PARI/GP: cargo test --test program foreign:: -- --ignored"]
 fn pari_finds_the_same_resultant() {
     let mut gp = program("gp", "LOOPROOT_GP");
     let (polynomials, names) = system();
@@ -136,7 +136,7 @@ fn pari_finds_the_same_resultant() {
 }
 
 #[test]
-#[ignore = "needs msolve"]
+#[ignore = "needs msolve: cargo test --test program foreign:: -- --ignored"]
 fn msolve_isolates_as_many_real_points() {
     let mut msolve = program("msolve", "LOOPROOT_MSOLVE");
     let (input, output) = (file("system.ms", &export(Format::Msolve)), file("system.ms.out", ""));
