@@ -61,7 +61,9 @@ def check(certificate, of_file):
 
 
 def solved(system, data, claim, modes, item, *others):
-    """Theorems 2 to 4, 8, 9 and 11: as many solutions are proved as there are at most."""
+    """Theorems 2 to 4, 8, 9 and 11: as many solutions are proved as there are at most; theorem 6: they form a curve."""
+    if item["kind"] == "curve" and not others:
+        return {"status": "self-motion", "self_motion": curve(system, data, item, modes)}
     kind, (bound, keys, has_complex) = item["kind"], BOUNDS[item["kind"]]
     is_short, is_of_own, longer = system.size < 6, kind == "own-eliminant", lengthened(system)
     if is_short and not has_complex or not is_short and (is_of_own or others) or len(others) > 1:

@@ -131,6 +131,33 @@ impl ChainClosure {
         Ok(Self { variables, links, exact, own, own_links, given, spherical })
     }
 
+    /// Returns the loop with one of its own unknowns held at a rational motion; `None` if its numbers are not rational, or it has a
+    /// spherical joint.
+    pub(super) fn holding(&self, unknown: usize, held: &Motion<Rational>) -> Option<Self> {
+        let mut own_links = self.own_links.clone().filter(|_| self.spherical.is_empty())?;
+        let mut variables = self.variables[..self.own].to_vec();
+        variables.remove(unknown);
+        let behind = own_links.remove(unknown);
+        // The motion in front of the first unknown is the last one of the loop.
+        let last = own_links.len().checked_sub(1)?;
+        let before = unknown.checked_sub(1).unwrap_or(last);
+        own_links[before] = own_links[before].then_after(held).then_after(&behind);
+        let around = Around { variables, links: own_links.clone(), before: Motion::identity(), given: None };
+        let (variables, exact) = around.lengthened().ok()?;
+        let links: Vec<_> = exact.iter().map(|link| link.map(Enclosure::from_rational)).collect::<Option<_>>()?;
+        let links = links.try_into().ok()?;
+        let own = own_links.len();
+        Some(Self {
+            variables,
+            links,
+            exact: Some(exact),
+            own,
+            own_links: Some(own_links),
+            given: None,
+            spherical: Vec::new(),
+        })
+    }
+
     /// Returns the loop in f64.
     #[must_use]
     pub fn rounded(&self) -> OpenLoop<f64> {

@@ -9,7 +9,7 @@ use super::families::check_families;
 use super::fault::{Fault, refused, shortened, unreadable};
 use super::isolation::{Closed, proved_modes};
 use super::mode::Ball;
-use super::moving::mobility;
+use super::moving::{CURVE, follows_a_curve, mobility};
 use super::platform::PlatformClosure;
 use super::polynomial;
 use super::real_zeros;
@@ -44,6 +44,8 @@ pub enum Holds {
     Real(usize),
     /// No real solution exists; the complex ones are not counted.
     OutOfReach,
+    /// The solutions form a curve at some of them; the others are not counted.
+    SelfMotion,
     /// A closed loop moves in this many dimensions; 0 means that it does not move.
     Mobility(usize),
     /// All loops of four rotations that move are of so many families, if no twist is a multiple of pi and joints 1 and 4 move.
@@ -60,6 +62,7 @@ impl fmt::Display for Holds {
                 write!(f, "{complex} solutions, {real} of them real, at the roots of the polynomial: complete, proved")
             }
             Self::Real(real) => write!(f, "{real} real solutions: complete, proved"),
+            Self::SelfMotion => write!(f, "a self-motion of dimension 1: proved"),
             Self::OutOfReach => write!(f, "no real solution: proved"),
             Self::Families(count) => {
                 write!(
@@ -106,6 +109,9 @@ pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> 
         }
     }
     let closed = closed(&entry, case)?;
+    if let Some(dimension) = record.claim.self_motion {
+        return of_self_motion(&closed, &record.claim.verb, dimension, record.modes.len(), &record.proof);
+    }
     let own = if let Closed::Chain(closure) = &closed { closure.own } else { 6 };
     // A second item says which solutions of a longer loop are those of a shorter one, or that they are all roots of a polynomial.
     let second =
@@ -232,6 +238,30 @@ fn out_of_reach(closed: &Closed, item: &Value, claim: &Claim, modes: usize) -> R
         return refused("claim: no real solution is proved, and nothing of complex ones");
     }
     Ok(Holds::OutOfReach)
+}
+
+/// Checks a certificate of a self-motion: theorem 6.
+fn of_self_motion(
+    closed: &Closed,
+    verb: &str,
+    dimension: usize,
+    modes: usize,
+    proof: &[Value],
+) -> Result<Holds, Fault> {
+    let (Closed::Chain(closure), [item]) = (closed, proof) else {
+        return refused("proof: one item shows that the solutions of an arm or a loop form a curve");
+    };
+    if verb != "solve" || dimension != 1 {
+        return refused("claim: only self-motions of dimension 1 are proved");
+    }
+    if modes > 0 {
+        return refused("modes: none are asked for here");
+    }
+    if item.get("kind").and_then(Value::as_str) != Some(CURVE) {
+        return refused("proof: self-motions are proved by an item of the kind `curve`");
+    }
+    follows_a_curve(closure, item)?;
+    Ok(Holds::SelfMotion)
 }
 
 /// Checks a certificate of `mobility`.

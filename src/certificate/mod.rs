@@ -40,7 +40,7 @@ pub use families::{KIND as FAMILIES, Listed, claim_of_families};
 pub use fault::Fault;
 pub use isolation::{Closed, proved_modes};
 pub use mode::Ball;
-pub use moving::{proof_of_motion, proof_of_rest};
+pub use moving::{proof_of_motion, proof_of_rest, proof_of_self_motion};
 pub use polynomial::proof_of_polynomial;
 pub use reconstructed::proof_of_points;
 pub use record::{FORMAT, VERSION};

@@ -25,6 +25,8 @@ use num_complex::Complex;
 use rug::Rational;
 use serde_json::{Map, Value, json};
 
+/// The `kind` of the item of theorem 6.
+pub(super) const CURVE: &str = "curve";
 /// Upper bound on the multiplicity of an isolated configuration and its conjugates together.
 const MOST: usize = 16;
 
@@ -34,6 +36,8 @@ const NEAR: f64 = 1e-11;
 const SAME: f64 = 1e-6;
 /// The largest numerator and denominator of a simple number; its square is far from the digits of f64.
 const LONGEST_PLACE: f64 = 1e5;
+/// Denominator of a simple value beside a configuration: with few digits the other coordinates have few, too.
+const ROUND_PARTS: f64 = 8.0;
 /// Denominator of the half-angle tangent of a held joint.
 const HELD_PARTS: f64 = 1e4;
 
@@ -49,7 +53,7 @@ pub(super) fn mobility(
         return refused(format!("proof: found {} items, expected one", proof.len()));
     };
     let kind = item.get("kind").and_then(Value::as_str).unwrap_or_default();
-    if kind == "curve" && !modes.is_empty() {
+    if kind == CURVE && !modes.is_empty() {
         return refused("modes: none are asked for here");
     }
     let found = match kind {
@@ -61,8 +65,8 @@ pub(super) fn mobility(
             does_not_move(entry, item, &balls)?;
             0
         }
-        "curve" => {
-            follows_a_curve(entry, item)?;
+        CURVE => {
+            follows_a_curve(&longer_loop(entry)?, item)?;
             1
         }
         "regular" => {
@@ -112,8 +116,7 @@ fn does_not_move(entry: &Entry, item: &Value, balls: &[Ball]) -> Result<(), Faul
 }
 
 /// Checks theorem 6: the closure equations hold to the order that decides along the only first-order motion.
-fn follows_a_curve(entry: &Entry, item: &Value) -> Result<(), Fault> {
-    let closure = longer_loop(entry)?;
+pub(super) fn follows_a_curve(closure: &ChainClosure, item: &Value) -> Result<(), Fault> {
     let Some(links) =
         closure.own_links.as_ref().filter(|links| closure.spherical.is_empty() && !links.iter().any(is_long))
     else {
@@ -244,63 +247,79 @@ pub fn proof_of_motion(
     solve: &dyn Fn(&ChainClosure) -> Vec<Near>,
 ) -> Option<(Value, Vec<Ball>)> {
     let Design::Loop(chain) = &entry.design else { return None };
-    let count = JointVariable::of(&chain.joint_kinds()).len();
+    if JointVariable::of(&chain.joint_kinds()).len() == 7 {
+        return configurations.iter().find_map(|q| held_regular(entry, q));
+    }
+    let Ok(Value::Object(data)) = data_of_loop(entry) else { return None };
+    let closure = longer_loop(&entry_of(&data, Chains::Any).ok()?).ok()?;
+    proof_of_self_motion(&closure, configurations, solve).map(|item| (item, Vec::new()))
+}
+
+/// Returns the item of theorem 6 for a loop of at most six unknowns, from real configurations of it; `None` if the theorem gives none.
+/// `solve` finds solutions of a loop of six unknowns.
+#[must_use]
+pub fn proof_of_self_motion(
+    closure: &ChainClosure,
+    configurations: &[Vec<f64>],
+    solve: &dyn Fn(&ChainClosure) -> Vec<Near>,
+) -> Option<Value> {
     let one = |q: &Vec<f64>| {
-        if q.len() != count {
-            return None;
-        }
-        if count == 7 {
-            return held_regular(entry, q);
-        }
-        (0..count).find_map(|k| curve_through(entry, q, k, solve)).map(|item| (item, Vec::new()))
+        let is_whole = q.len() == closure.own;
+        let places = (0..closure.own).filter(|_| is_whole).flat_map(|k| {
+            let (variable, x) = (closure.variables[k], q[k]);
+            [near_place(variable, x), round_place(variable, x)].into_iter().flatten().map(move |place| (k, place))
+        });
+        let mut places: Vec<(usize, Place)> = places.collect();
+        places.dedup();
+        places.into_iter().find_map(|(k, place)| curve_through(closure, q, k, &place, solve))
     };
     configurations.iter().find_map(one)
 }
 
-/// Returns the item of theorem 6 for a configuration at which the unknown k has a simple value.
-fn curve_through(entry: &Entry, q: &[f64], k: usize, solve: &dyn Fn(&ChainClosure) -> Vec<Near>) -> Option<Value> {
-    let Design::Loop(chain) = &entry.design else { return None };
-    let named = JointVariable::of(&chain.joint_kinds());
-    let place = near_place(named[k].variable, q[k])?;
-    let Ok(Value::Object(mut data)) = data_of_loop(entry) else { return None };
-    let (input, coordinates) = held_at(&named[k], &place)?;
-    data.insert("input".to_owned(), json!([input]));
-    let held = entry_of(&data, Chains::Solved).ok()?;
-    let Closed::Chain(closure) = closed(&held, held.cases.first()?).ok()? else { return None };
+/// Returns the item of theorem 6 for the configuration nearest to this one at which the unknown k has a simple value.
+fn curve_through(
+    closure: &ChainClosure,
+    q: &[f64],
+    k: usize,
+    place: &Place,
+    solve: &dyn Fn(&ChainClosure) -> Vec<Near>,
+) -> Option<Value> {
+    let (motion, coordinates) = held_at(closure.variables[k], place)?;
+    let held = closure.holding(k, &motion)?;
     let others: Vec<f64> = q.iter().enumerate().filter(|(at, _)| *at != k).map(|(_, x)| *x).collect();
-    let is_same = |(at, (x, y)): (usize, (&Complex<f64>, &f64))| {
-        let off = x - y;
-        let off = if closure.variables[at] == Variable::Rotation { (0.5 * off).sin() } else { off };
-        off.norm() < SAME
+    let off = |x: &[Complex<f64>]| -> f64 {
+        let one = |(at, (x, y)): (usize, (&Complex<f64>, &f64))| {
+            let off = x - y;
+            if held.variables[at] == Variable::Rotation { (0.5 * off).sin().norm() } else { off.norm() }
+        };
+        x.iter().zip(&others).enumerate().map(one).fold(0.0, f64::max)
     };
-    let is_own = |x: &[Complex<f64>]| x[closure.own..].iter().all(|x| (0.5 * x).sin().norm() < SAME);
-    let near: Vec<Near> = solve(&closure).into_iter().filter(|(x, _)| is_own(x)).collect();
-    let at = near.iter().position(|(x, real)| *real && x.iter().zip(&others).enumerate().all(is_same))?;
-    let points = near.iter().map(|(x, _)| reconstructed::coordinates(&closure, x)).collect::<Option<Vec<_>>>()?;
+    let is_own = |x: &[Complex<f64>]| x[held.own..].iter().all(|x| (0.5 * x).sin().norm() < SAME);
+    let near: Vec<Near> = solve(&held).into_iter().filter(|(x, _)| is_own(x)).collect();
+    let real = near.iter().enumerate().filter(|(_, (_, real))| *real);
+    let (at, _) = real.min_by(|(_, (x, _)), (_, (y, _))| off(x).total_cmp(&off(y)))?;
+    let points = near.iter().map(|(x, _)| reconstructed::coordinates(&held, x)).collect::<Option<Vec<_>>>()?;
     let mut points = reconstructed::conjugate(&points, at)?;
     for point in &mut points {
         point.insert(k, coordinates.clone());
     }
     let mut item = reconstructed::item(&points)?;
-    item["kind"] = json!("curve");
-    follows_a_curve(entry, &item).ok()?;
+    item["kind"] = json!(CURVE);
+    follows_a_curve(closure, &item).ok()?;
     Some(item)
 }
 
-/// Returns the input that holds a joint variable at a simple value, and its cosine and sine or its distance.
-fn held_at(named: &JointVariable, place: &Place) -> Option<(Value, Vec<Far>)> {
-    if named.turn != 0 {
-        return None;
-    }
-    if named.variable == Variable::Translation {
+/// Returns the motion of an unknown that is held at a simple value, and its cosine and sine or its distance.
+fn held_at(variable: Variable, place: &Place) -> Option<(Motion<Rational>, Vec<Far>)> {
+    if variable == Variable::Translation {
         let distance = place.clone()?;
-        let input = json!({ "joint": named.joint, "distance": distance.to_string() });
-        return Some((input, reconstructed::held(named.variable, [&distance, &distance])?));
+        let coordinates = reconstructed::held(variable, [&distance, &distance])?;
+        return Some((Motion::translation_z(distance), coordinates));
     }
     let angle = Angle::from_half_tangent(place.clone().map_or(HalfTangent::Infinite, HalfTangent::Finite));
     let (cos, sin) = exact_cos_sin(&angle);
-    let input = json!({ "joint": named.joint, "angle": angle.text()? });
-    Some((input, reconstructed::held(named.variable, [&cos, &sin])?))
+    let coordinates = reconstructed::held(variable, [&cos, &sin])?;
+    Some((Motion::rotation_z(cos, sin), coordinates))
 }
 
 /// Returns a proof that a loop does not move, with balls around solutions of the longer loop; `None` if theorem 5 gives none.
@@ -328,6 +347,15 @@ pub fn proof_of_rest(entry: &Entry, solve: &dyn Fn(&ChainClosure) -> Vec<Near>) 
 
 /// The value of an unknown at a configuration: a half-angle tangent (none for pi), or a distance.
 type Place = Option<Rational>;
+
+/// Returns a simple value near that of an unknown.
+fn round_place(variable: Variable, x: f64) -> Option<Place> {
+    let value = if variable == Variable::Rotation { (0.5 * x).tan() } else { x };
+    if variable == Variable::Rotation && value.abs() > ROUND_PARTS {
+        return Some(None);
+    }
+    Some(Some(Rational::from_f64((value * ROUND_PARTS).round())? / Rational::from_f64(ROUND_PARTS)?))
+}
 
 /// Returns the simple value that an unknown equals to rounding; `None` if there is none.
 fn near_place(variable: Variable, x: f64) -> Option<Place> {

@@ -11,6 +11,8 @@ use serde_json::{Map, Value};
 pub const FORMAT: &str = "looproot-certificate";
 /// The `version` of the format.
 pub const VERSION: u64 = 1;
+/// The `status` of an answer whose solutions form a curve.
+pub(super) const SELF_MOTION: &str = "self-motion";
 /// Maximum number of items of a list.
 const LONGEST_LIST: usize = 1000;
 /// Maximum number of digits of a decimal before and behind the point.
@@ -38,6 +40,8 @@ pub(super) struct Claim {
     pub real: Option<usize>,
     /// The dimension of the motion, for `mobility`.
     pub mobility: Option<usize>,
+    /// The dimension of the self-motion of `solve`.
+    pub self_motion: Option<usize>,
     /// The polynomial of `derive`.
     pub polynomial: Option<polynomial::Claim>,
     /// The families of `conditions`.
@@ -78,6 +82,11 @@ fn claim(value: &Value) -> Result<Claim, Fault> {
         let (verb, status, proof) = words(verb, status, word)?;
         let families = Some(families::Claim::read(families, links, joints)?);
         return Ok(Claim { verb, status, proof, families, ..Claim::default() });
+    }
+    if value.get("status").and_then(Value::as_str) == Some(SELF_MOTION) {
+        let [verb, status, word, dimension] = fields(value, ["verb", "status", "proof", "self_motion"], &[])?;
+        let (verb, status, proof) = words(verb, status, word)?;
+        return Ok(Claim { verb, status, proof, self_motion: Some(count(dimension)?), ..Claim::default() });
     }
     let of_polynomial = ["unknown", "degree", "polynomial"];
     let is_derived = value.get("verb").and_then(Value::as_str) == Some("derive");

@@ -140,7 +140,7 @@ impl ChainClosure {
 
     /// Returns the unknowns among all joint variables.
     #[must_use]
-    pub fn unknowns(&self, q: &[Complex<f64>]) -> Vec<Complex<f64>> {
+    pub fn unknowns<T: Copy>(&self, q: &[T]) -> Vec<T> {
         q.iter().enumerate().filter(|(at, _)| Some(*at) != self.given).map(|(_, x)| *x).collect()
     }
 }

@@ -186,7 +186,7 @@ pub fn mobility(name: &str) -> Result<Value> {
 }
 
 /// Checks certificates, one a line, and compares their data with a file where one is named: a list of objects with `holds`,
-/// `complex`, `real`, `mobility` and `fault`.
+/// `complex`, `real`, `self_motion`, `mobility` and `fault`.
 ///
 /// # Errors
 /// For text that is no certificate, and for a file that cannot be read.
@@ -194,27 +194,27 @@ pub fn verify(certificates: &str, file: Option<&str>) -> Result<Value> {
     let entry = file.map(|file| load(file, &Options::default())).transpose()?;
     let mut found = Vec::new();
     let read = check_all(certificates, entry.as_ref(), |_, outcome| {
-        found.push(match outcome {
-            Ok(Holds::Solutions { complex, real } | Holds::Polynomial { complex, real }) => {
-                json!({ "holds": true, "complex": complex, "real": real, "mobility": null, "fault": null })
-            }
-            Ok(Holds::Real(real)) => {
-                json!({ "holds": true, "complex": null, "real": real, "mobility": null, "fault": null })
-            }
-            Ok(Holds::OutOfReach) => {
-                json!({ "holds": true, "complex": null, "real": 0, "mobility": null, "fault": null })
-            }
-            Ok(Holds::Families(_)) => {
-                json!({ "holds": true, "complex": null, "real": null, "mobility": null, "fault": null })
-            }
-            Ok(Holds::Mobility(dimension)) => {
-                json!({ "holds": true, "complex": null, "real": null, "mobility": dimension, "fault": null })
-            }
-            Err(fault) => {
-                let fault = fault.to_string();
-                json!({ "holds": false, "complex": null, "real": null, "mobility": null, "fault": fault })
-            }
+        let mut answer = json!({
+            "holds": outcome.is_ok(),
+            "complex": null,
+            "real": null,
+            "self_motion": null,
+            "mobility": null,
+            "fault": null,
         });
+        match outcome {
+            Ok(Holds::Solutions { complex, real } | Holds::Polynomial { complex, real }) => {
+                answer["complex"] = json!(complex);
+                answer["real"] = json!(real);
+            }
+            Ok(Holds::Real(real)) => answer["real"] = json!(real),
+            Ok(Holds::OutOfReach) => answer["real"] = json!(0),
+            Ok(Holds::SelfMotion) => answer["self_motion"] = json!(1),
+            Ok(Holds::Families(_)) => {}
+            Ok(Holds::Mobility(dimension)) => answer["mobility"] = json!(dimension),
+            Err(fault) => answer["fault"] = json!(fault.to_string()),
+        }
+        found.push(answer);
     });
     read.map_err(|fault| Error::Invalid(fault.to_string()))?;
     Ok(Value::Array(found))

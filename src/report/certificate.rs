@@ -7,7 +7,7 @@ use crate::catalogue::entry::{Case, Design, Entry};
 use crate::certificate::{
     Ball, ChainClosure, Closed, FAMILIES, FORMAT, Fault, Listed, Near, VERSION, balls, check, claim_of_families,
     closed, data_of, data_of_loop, proof_by_distance, proof_of, proof_of_motion, proof_of_own, proof_of_points,
-    proof_of_polynomial, proof_of_real_list, proof_of_rest,
+    proof_of_polynomial, proof_of_real_list, proof_of_rest, proof_of_self_motion,
 };
 use crate::conditions::four_bar::{self, FourBar};
 use crate::derivation::Derivation;
@@ -30,6 +30,9 @@ const DECIMALS: u32 = 30;
 /// A clause that says why there is none.
 pub fn certificate(entry: &Entry, number: usize, case: &Case, solution: &Solution) -> Result<Value, String> {
     let verdict = &solution.verdict;
+    if verdict.status == Status::SelfMotion {
+        return certificate_of_self_motion(entry, number, case, solution);
+    }
     if !verdict.proof.is_proved() || !matches!(verdict.status, Status::Complete | Status::Unreachable) {
         return Err("the answer is not proved".to_owned());
     }
@@ -40,7 +43,7 @@ pub fn certificate(entry: &Entry, number: usize, case: &Case, solution: &Solutio
     if solution.arm.is_some() && short.is_none() {
         return Err("answers to arms of more than six joints, to tasks and with joints held are not covered".to_owned());
     }
-    let info = json!({ "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": entry.name, "title": entry.title, "case": number });
+    let info = info_of(entry, number);
     if let Some(closure) = short {
         let (claim, balls, proof) = of_short_loop(closure, &closed, solution)?;
         return accepted(&info, &data, &claim, &balls, &proof);
@@ -52,6 +55,26 @@ pub fn certificate(entry: &Entry, number: usize, case: &Case, solution: &Solutio
         by_distance.or_else(|| real_list(&closed, solution)).ok_or(reason)
     })?;
     accepted(&info, &data, &claim, &balls, &[proof])
+}
+
+/// Returns the certificate that the solutions of one case form a curve. Of other solutions it says nothing.
+fn certificate_of_self_motion(entry: &Entry, number: usize, case: &Case, solution: &Solution) -> Result<Value, String> {
+    let data = data_of(entry, case)?;
+    let Closed::Chain(closure) = closed(entry, case).map_err(|fault| words(&fault))? else {
+        return Err("self-motions of platforms are not covered".to_owned());
+    };
+    // What is asked of an arm may be less than its pose.
+    let exact = solution.families.iter().filter(|family| family.dimension == 1 && family.distance == 0.0);
+    let samples: Vec<Vec<f64>> = exact.map(|family| closure.unknowns(&family.sample)).collect();
+    let proof = proof_of_self_motion(&closure, &samples, &found)
+        .ok_or("no curve of solutions is proved by theorem 6 of docs/certificate.md")?;
+    let claim = json!({ "verb": "solve", "status": "self-motion", "proof": "proved", "self_motion": 1 });
+    accepted(&info_of(entry, number), &data, &claim, &[], &[proof])
+}
+
+/// Returns what no checker reads.
+fn info_of(entry: &Entry, number: usize) -> Value {
+    json!({ "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": entry.name, "title": entry.title, "case": number })
 }
 
 /// Returns the claim of an answer that counts all its solutions, a ball around each, and the item that bounds their number.
@@ -161,7 +184,7 @@ pub fn certificate_of_polynomial(
     claim["unknown"] = json!(unknown + 1);
     claim["degree"] = json!(coefficients.len() - 1);
     claim["polynomial"] = json!(texts);
-    let info = json!({ "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": entry.name, "title": entry.title, "case": number });
+    let info = info_of(entry, number);
     accepted(&info, &data, &claim, &balls, &[proof, membership])
 }
 

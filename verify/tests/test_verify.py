@@ -243,6 +243,30 @@ def test_distances_prove_that_nothing_is_in_reach(certificates, tmp_path, checke
 
 
 @pytest.mark.parametrize("checker", CHECKERS)
+@pytest.mark.parametrize(("entry", "joints"), [("arm/puma560", "0,0,0,0,0,0"), ("arm/ur5", "0.5,-1,1.5,0.2,0,0.3"), ("arm/ur5", "0,0,0,0,0,0")])
+def test_self_motions_are_certified(certificates, tmp_path, checker, entry, joints):
+    path = tmp_path / "curve"
+    run(LOOPROOT, "solve", f"equations/{entry}.toml", "-q", "--joints", joints, "--certificate", path)
+    answer = CHECKERS[checker](path)
+    assert answer.returncode == 0 and re.search("self-motion", answer.stdout), answer
+    true, isolated = json.loads(path.read_text()), lines(certificates / "arm-puma560")[0]
+    forged = {
+        "two dimensions": {"claim": {**true["claim"], "self_motion": 2}},
+        "another verb": {"claim": {**true["claim"], "verb": "mobility"}},
+        "a number of solutions": {"claim": {**true["claim"], "real": 1}},
+        "another status": {"claim": {**true["claim"], "status": "complete"}},
+        "no proof": {"proof": []},
+        "an item more": {"proof": true["proof"] * 2},
+        "another item": {"proof": [{"kind": "general-bound", "value": 16}]},
+        "a mode": {"modes": isolated["modes"][:1]},
+        "another pose": {"data": {**true["data"], "pose": isolated["data"]["pose"]}},
+    }
+    for name, parts in forged.items():
+        answer = CHECKERS[checker](written(tmp_path / "forged", {**true, **parts}))
+        assert answer.returncode in (1, 2) and "holds" not in answer.stdout, (name, answer)
+
+
+@pytest.mark.parametrize("checker", CHECKERS)
 @pytest.mark.parametrize("entry", ["chain/ik_general", "loop/crrrrr_every_input"])
 def test_closure_polynomials_are_certified(tmp_path, checker, entry):
     path = tmp_path / "derived"
