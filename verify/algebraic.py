@@ -5,9 +5,8 @@ What is 0 in Q[T]/P is 0 at every root of P. What has an inverse there is 0 at n
 from flint import fmpq, fmpq_poly
 
 from closures import TURN
-from expressions import expression
 from motions import IDENTITY
-from quantities import Refused, Unreadable, fields, is_exact, items
+from quantities import Refused, Unreadable, fields, is_exact, items, number
 
 MOST_CONJUGATES = 16  # solutions of six unknowns
 
@@ -72,7 +71,7 @@ class Points:
         self.weights = [rational(text) for text in items(*fields(aid, ("weights",)), len(flat))]
         if self.weighed(flat) != Algebraic([0, 1], self.modulus):
             raise Refused("proof: the points are not told apart by the weights")
-        if system.spherical or not is_exact(system.constants()) or system.around(self.values) != IDENTITY:
+        if system.spherical or not is_exact(system.constants) or system.around(self.values) != IDENTITY:
             raise Refused("proof: points: the loop is not closed there")
 
     def weighed(self, values):
@@ -80,7 +79,7 @@ class Points:
 
 
 def rational(text):
-    value = expression(text)
+    value = number(text)
     if not is_exact([value]):
         raise Unreadable(f"found {str(text)[:40]!r}, expected a rational number as text")
     return value

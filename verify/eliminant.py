@@ -4,7 +4,7 @@ from flint import acb, fmpq, fmpq_mat, fmpq_poly
 from closures import TURN, Chain, proved_modes
 from lines import HELD, eliminate, equations
 from motions import IDENTITY, times, turn
-from quantities import Refused, by_half_tangent, decimal, fields, is_exact, whole
+from quantities import Refused, by_half_tangent, decimal, fields, is_exact, require, whole
 from short_loops import lengthened
 
 LONGEST = 512  # bits of a number of a link
@@ -78,9 +78,9 @@ class Eliminant:
 
 
 def check_rational(system, *others):
-    if not isinstance(system, Chain) or system.size > 6 or system.spherical or not is_exact(system.constants()):
+    if not isinstance(system, Chain) or system.size > 6 or system.spherical or not is_exact(system.constants):
         raise Refused("proof: only loops of at most six rotations and translations with rational constants are covered")
-    if any(fmpq(x).height_bits() > LONGEST for x in (*system.constants(), *others)):
+    if any(fmpq(x).height_bits() > LONGEST for x in (*system.constants, *others)):
         raise Refused("proof: the numbers are too long")
 
 
@@ -98,10 +98,20 @@ def most_solutions(system, aid):
     return sum(eliminant.solutions_at(root) for root, _ in minor.complex_roots()) if minor.degree() > 0 else 0
 
 
+def own_eliminant(system, values, item):
+    """Theorem 11: modes of the longer loop, as many as the eliminant of the loop itself allows it. Where it allows none, one solution of
+    the longer loop shows that the data are these."""
+    _, stated, aid = fields(item, ("kind", "value", "aid"))
+    require(system.size < 6, "proof: own-eliminant: the loop has six unknowns")
+    most, modes = most_solutions(system, aid), proved_modes(lengthened(system), values)
+    holds = most == whole(stated) and len(modes) == max(most, 1)
+    require(holds, f"proof: own-eliminant: the bound is {most}, {stated} is stated, and {len(modes)} modes are proved")
+    return modes
+
+
 def immobile(system, data, item, modes):
     """Theorem 5: the longer loop has finitely many solutions, and it is this loop: one of them at least is shown."""
     longer, (_, aid) = lengthened(system), fields(item, ("kind", "aid"))
     most_solutions(longer, aid)
-    if not proved_modes(longer, modes):
-        raise Refused("modes: no solution of the longer loop is shown")
+    require(proved_modes(longer, modes), "modes: no solution of the longer loop is shown")
     return 0

@@ -1,81 +1,103 @@
-"""Mechanism files (equations/README.md), with which the data of a certificate are compared."""
+"""Mechanism files (equations/README.md): their cases as the data of certificates, with which those of a certificate are compared."""
 import functools
 import json
-import re
+import math
 import tomllib
 
-from flint import arb, fmpq
-
-from closures import Platform
-from expressions import UNITS, expression
-from frames import placement
-from mechanism import Reader, angle
-from motions import IDENTITY, difference, dot, of_quaternion
-from quantities import Unreadable, by_half_tangent, decimal, is_exact, items
+from mechanism import HALF_TANGENT, KEYS, matrix, system_of
+from motions import difference, dot
+from quantities import Refused, Unreadable, is_exact, items, number, require
+from rounded import rotation_near, rotation_of
+from units import UNITS, by_half_tangent, in_units, right_angle
 
 LARGEST = 64 << 20  # bytes of a mechanism file
-QUARTERS = re.compile(r"(?P<number>[+-]?\d{1,9}(?:\.\d{1,9})?)\s*(?P<deg>deg)?|(?P<sign>-?)(?:(?P<times>\d{1,9})\*)?pi(?:/(?P<part>[1-9]\d{0,8}))?", re.ASCII)
-FAULTS = (ArithmeticError, AttributeError, LookupError, MemoryError, RecursionError, TypeError, ValueError)
+FAULTS = (ArithmeticError, AttributeError, LookupError, MemoryError, RecursionError, SyntaxError, TypeError, ValueError)
 
 
-class FileReader(Reader):
+class File:
+    """A mechanism file, of which all numbers are texts."""
+
     def __init__(self, document):
         units = document.get("units", {})
-        self.metres, self.radians = UNITS[units.get("length", "m")], UNITS[units.get("angle", "rad")]
-
-    def fields(self, table, needed, optional=()):
-        """Of a file other keys are not looked at."""
+        self.document, self.metre, self.radian = document, units.get("length", "m"), units.get("angle", "rad")
 
     def length(self, text):
-        return expression(text, self.metres)
+        return in_units(text, self.metre)
 
-    def cos_sin(self, table, key):
+    def angle(self, table, key):
         half = "tan_half" if key == "angle" else "tan_half_" + key
-        if half not in table:
-            text = str(table.get(key, "0"))
-            return right_angle(text, self.radians) or angle(text, self.radians)
-        return (fmpq(-1), fmpq(0)) if table[half] == "inf" else by_half_tangent(expression(table[half]))
+        if half in table:
+            return "pi" if table[half] == "inf" else by_half_tangent(in_units(table[half], "m"))
+        text = table.get(key, "0")
+        return text if HALF_TANGENT.fullmatch(text) else right_angle(text, self.radian) or in_units(text, self.radian)
+
+    def matrix(self, rows):
+        texts = [[*(in_units(x, "m") for x in row[:3]), self.length(row[3])] for row in rows]
+        rotation = [[number(x) for x in row[:3]] for row in texts[:3]]
+        if all(map(is_exact, rotation)):
+            texts[:3] = [[*map(str, row), own[3]] for row, own in zip(rotation_near(rotation), texts)]
+        return texts
 
     def pose(self, table):
         if "matrix" in table:
             return self.matrix(table["matrix"])
-        q = [expression(x) for x in items(table["quaternion"], 4)]
-        norm = sum(x * x for x in q)
-        rows = [[x / norm for x in row] for row in of_quaternion(*q)]
-        return placement([[*row, self.length(x)] for row, x in zip(rows, items(table["position"], 3))] + [IDENTITY[3]])
+        quaternion = [number(in_units(x, "m")) for x in items(table["quaternion"], 4)]
+        require(is_exact(quaternion), "file: an irrational quaternion has no certificate")
+        rows = zip(rotation_of(quaternion), items(table["position"], 3))
+        return [[*map(str, row), self.length(x)] for row, x in rows] + [["0", "0", "0", "1"]]
 
-    def squares(self, legs):
+    def joint(self, joint, convention):
+        if convention == "screws":
+            axis, point = ([number(self.length(x)) for x in items(joint.get(key, ["0"] * 3), 3)] for key in ("axis", "point"))
+            require(is_exact(axis + point), "file: an irrational axis has no certificate")
+            foot = [x - u * dot(axis, point) / dot(axis, axis) for x, u in zip(point, axis)]
+            whole = [x * math.lcm(*(int(y.q) for y in axis)) for x in axis]
+            axis = [x / math.gcd(*(int(y.p) for y in whole)) for x in whole]
+            places = {} if joint["type"] == "P" else {"point": [*map(str, foot)]}
+            return {"type": joint["type"], "axis": [*map(str, axis)], **places}
+        a, alpha, d, *theta = KEYS[joint["type"]]
+        angles = {key: self.angle(joint, key) for key in (alpha, *theta)}
+        return {"type": joint["type"], a: self.length(joint[a]), d: self.length(joint.get(d, "0")), **angles}
+
+    def chain(self, mechanism):
+        places = {key: self.matrix(mechanism[key]) for key in ("base", "home", "tool") if key in mechanism}
+        if mechanism["convention"] == "screws":
+            places.setdefault("home", [[str(int(i == j)) for j in range(4)] for i in range(4)])
+        joints = [self.joint(joint, mechanism["convention"]) for joint in mechanism["joints"]]
+        return {"kind": mechanism["kind"], "convention": mechanism["convention"], "joints": joints, **places}
+
+    def input(self, given):
+        is_slide = "distance" in given
+        value = {"distance": self.length(given["distance"])} if is_slide else {"angle": self.angle(given, "angle")}
+        return {"joint": int(given["joint"]), **value}
+
+    def squares(self, legs, base, plate):
+        """The squares of the legs, which may be given by a pose."""
+        if "matrix" in legs or "quaternion" in legs:
+            pose = matrix(self.pose(legs))
+            a, b = ([[number(x) for x in point] for point in body] for body in (base, plate))
+            sides = [difference([dot(row, y) + row[3] for row in pose], x) for x, y in zip(a, b)]
+            require(all(map(is_exact, sides)), "file: legs of an irrational pose have no certificate")
+            return [str(dot(side, side)) for side in sides]
         if lengths := legs.get("lengths", legs.get("legs")):
-            return [self.length(x) ** 2 for x in items(lengths, 6)]
-        return [expression(x) * self.metres**2 for x in items(legs.get("squared", legs.get("legs_squared")), 6)]
+            return [f"({text})*({text})" for text in map(self.length, lengths)]
+        squares = legs.get("squared", legs.get("legs_squared"))
+        return [f"({in_units(text, 'm')})*({UNITS[self.metre]})*({UNITS[self.metre]})" for text in squares]
 
-    def systems(self, document, has_input):
-        """The closure equations of every case."""
-        mechanism = document["mechanism"]
+    def cases(self, verb):
+        """The data of every case, each as a function, as some have none."""
+        document, mechanism = self.document, self.document["mechanism"]
         if mechanism["kind"] == "platform":
-            points = [self.points(mechanism[key]) for key in ("base", "plate")]
-            if "pose" in document:
-                return [Platform(*points, legs_of(self.pose(pose), *points)) for pose in document["pose"]]
-            return [Platform(*points, self.squares(legs)) for legs in document.get("legs", [mechanism])]
+            base, plate = ([[*map(self.length, point)] for point in mechanism[key]] for key in ("base", "plate"))
+            of_legs = lambda legs: {"mechanism": {
+                "kind": "platform", "base": base, "plate": plate, "legs_squared": self.squares(legs, base, plate)}}
+            return [functools.partial(of_legs, legs) for legs in document.get("pose", document.get("legs", [mechanism]))]
         if mechanism["kind"] == "arm":
-            return [self.chain(mechanism, self.pose(pose), None) for pose in document["pose"]]
-        inputs = document["input"] if has_input and "input" in document else [None]
-        return [self.chain(mechanism, IDENTITY, {**given, "joint": int(given["joint"])} if given is not None else None) for given in inputs]
-
-
-def right_angle(text, unit):
-    """Cosine and sine of a multiple of a quarter turn written in degrees or as a fraction of pi; otherwise nothing."""
-    match = QUARTERS.fullmatch(text)
-    if not match or match["number"] and not match["deg"] and unit is not UNITS["deg"]:
-        return None
-    quarters = decimal(match["number"]) / 90 if match["number"] else fmpq(2 * int(match["sign"] + (match["times"] or "1")), int(match["part"] or "1"))
-    return tuple(map(fmpq, ((1, 0), (0, 1), (-1, 0), (0, -1))[int(quarters) % 4])) if quarters.q == 1 else None
-
-
-def legs_of(pose, base, plate):
-    """The squared lengths of the legs at a pose."""
-    legs = [difference([dot(row, b) + row[3] for row in pose], a) for a, b in zip(base, plate)]
-    return [dot(leg, leg) for leg in legs]
+            of_pose = lambda pose: {"mechanism": self.chain(mechanism), "pose": [{"matrix": self.pose(pose)}]}
+            return [functools.partial(of_pose, pose) for pose in document["pose"]]
+        of_loop = lambda **given: {"mechanism": self.chain(mechanism), **given}
+        inputs = document.get("input", []) if verb != "mobility" else []
+        return [lambda given=given: of_loop(input=[self.input(given)]) for given in inputs] or [of_loop]
 
 
 def is_same(one, other):
@@ -83,22 +105,29 @@ def is_same(one, other):
     same as one that is not known to be rational: it might be a convergent of it, for which other theorems hold."""
     shape = lambda system: (type(system), system.size, system.kinds, system.spherical)
     same = lambda x, y: x == y if is_exact((x, y)) else not is_exact([x]) and not is_exact([y]) and x.overlaps(y)
-    return shape(one) == shape(other) and all(map(same, one.constants(), other.constants()))
+    return shape(one) == shape(other) and all(map(same, one.constants, other.constants))
 
 
 @functools.cache
-def of_file(path, has_input):
-    """The cases of a mechanism file."""
+def systems(path, verb):
+    """The closure equations of the cases of a mechanism file that a certificate can be about."""
     try:
         with open(path, "rb") as file:
             text = file.read(LARGEST).decode()
         is_json = text.lstrip().startswith("{")
         document = json.loads(text, parse_int=str, parse_float=str) if is_json else tomllib.loads(text, parse_float=str)
-        return FileReader(document).systems(as_texts(document), has_input)
+        return [system for case in File(as_texts(document)).cases(verb) if (system := system_or_none(case))]
     except OSError as error:
         raise Unreadable(f"{path}: {error.strerror}") from None
     except FAULTS as error:
         raise Unreadable(f"{path}: no mechanism file: {str(error)[:80]}") from None
+
+
+def system_or_none(case):
+    try:
+        return system_of(case())
+    except Refused:
+        return None
 
 
 def as_texts(value):
@@ -106,3 +135,8 @@ def as_texts(value):
     if isinstance(value, dict):
         return {key: as_texts(own) for key, own in value.items()}
     return list(map(as_texts, value)) if isinstance(value, list) else str(value)
+
+
+def is_about(system, path, verb):
+    """Whether a file has a case with these closure equations."""
+    return any(is_same(system, own) for own in systems(path, verb)) if system else False

@@ -1,8 +1,7 @@
 """Theorem 3 of docs/certificate.md: the most solutions that a loop with special axes, or a platform with special points can have."""
 from flint import acb, acb_mat, arb, fmpq_mat
 
-from bounds import THREE_JOINTS
-from closures import SLIDE, Platform
+from closures import SLIDE, THREE_JOINTS, Platform
 from lines import cross, eliminate
 from motions import column, difference, dot, inverse
 from quantities import is_exact

@@ -2,8 +2,9 @@
 from flint import arb, arb_mat, arb_poly, fmpq
 
 from closures import Chain
+from distance import real_modes
 from eliminant import Eliminant, at
-from quantities import Refused, fields, whole
+from quantities import Refused, fields, require, whole
 
 END = fmpq(97, 89)  # the tangents of the half angle are searched up to it, and their inverses up to its inverse
 NARROW = fmpq(1, 2**100)  # zeros that are nearer than this are not told apart
@@ -11,9 +12,16 @@ PLACES = [arb(11 * k + 1) / 64 for k in range(-12, 13)]  # from -2 to 2, so that
 ASIDE = fmpq(1, 37)  # intervals are divided beside the middle, where zeros of special data may be
 
 
-def most_real(system, aid):
-    """The number of real zeros of the eliminant, which are simple: no more real solutions exist."""
-    first, hidden = map(whole, fields(aid, ("first", "hidden")))
+def real_zeros(system, modes, item):
+    """As many real solutions as the eliminant has real zeros, which are simple: no more exist."""
+    _, stated, aid = fields(item, ("kind", "value", "aid"))
+    most = most_real(system, *map(whole, fields(aid, ("first", "hidden"))))
+    require(most == whole(stated), f"proof: real-zeros: the bound is {most}, and {stated} is stated")
+    return real_modes(system, modes, most)
+
+
+def most_real(system, first, hidden):
+    """The number of real zeros of the eliminant."""
     if not isinstance(system, Chain) or system.size != 6 or system.spherical:
         raise Refused("proof: real-zeros: only loops of six rotations and translations have an eliminant")
     links = [[[arb(x) for x in row] for row in link] for link in system.links]  # long rational numbers would take long

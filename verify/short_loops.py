@@ -2,9 +2,9 @@
 from flint import acb, acb_poly, arb, ctx, fmpq
 
 from algebraic import Points
-from closures import TURN, Chain, Platform, differ
+from closures import TURN, Chain, are_apart
 from motions import along, inverse, times, turn
-from quantities import Refused, by_half_tangent
+from quantities import by_half_tangent, require
 
 PRECISION = 1408  # bits: coefficients of some 400 cancel
 STEPS = 6  # of Newton's method, from 53 bits
@@ -12,10 +12,8 @@ STEPS = 6  # of Newton's method, from 53 bits
 
 def lengthened(system):
     """The loop with rotations about axes that nothing distinguishes behind its last link, up to six unknowns."""
-    if isinstance(system, Platform) or system.size == 6:
+    if system.size >= 6:
         return system
-    if system.size > 6:
-        raise Refused("closure: loops of at most six unknowns are covered")
     parts = [part for pair in zip(system.kinds, system.links) for part in pair]
     for k in range(6 - system.size):
         about_x, about_y = turn(0, *by_half_tangent(fmpq(2 + k, 7))), turn(1, *by_half_tangent(fmpq(3, 5 + 2 * k)))
@@ -24,17 +22,21 @@ def lengthened(system):
     return Chain(parts, system.spherical)
 
 
-def own_modes(system, modes, is_own_bound, others):
+def own_modes(system, modes, item, *others):
     """Returns the modes of the loop itself among those of the longer one: there are as many as points of the second item, if there is one."""
-    points = Points(system, others[0]) if others else None
+    if system.size >= 6:
+        require(not others, f"proof: found {1 + len(others)} items, where one bounds the number of solutions")
+        return modes
+    require(len(others) <= 1, f"proof: found {1 + len(others)} items, expected one or two")
+    points, is_own_bound = [Points(system, other) for other in others], item["kind"] == "own-eliminant"
+    added = [TURN] * (6 - system.size)
     if is_own_bound and points:
-        own = [mode for mode in modes if is_one_in(points, system, mode)]
+        own = [mode for mode in modes if is_one_in(points[0], system, mode)]
     else:  # the added rotations may be 0
-        own = [mode for mode in modes if not any(
-            differ(TURN, x, mode[1]) for x in mode[0][system.size:])]
-    count = points.modulus.degree() if points else 0
-    if len(own) != count or is_own_bound and len(modes) != count:
-        raise Refused(f"proof: points: they are {count}, and {len(own)} of the {len(modes)} modes may be solutions of the loop")
+        own = [mode for mode in modes if not are_apart(added, mode.centre[system.size:], [0] * len(added), mode.radius)]
+    count = points[0].modulus.degree() if points else 0
+    is_bound = not is_own_bound or item["value"] == count
+    require(is_bound and len(own) == count, f"proof: points: they are {count}, and {len(own)} of the {len(modes)} modes may be solutions of the loop")
     return own
 
 

@@ -1,154 +1,133 @@
 #!/usr/bin/env python3
 """Checks certificates of looproot: docs/certificate.md has the format and the theorems.
 
-usage: verify.py CERTIFICATE [--file MECHANISM]
-
 Exit code 0: every item holds; 2: one does not, which is named; 1: the certificate cannot be read.
 """
-import itertools
+import argparse
+import functools
 import json
-import os
 import re
 import sys
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-sys.set_int_max_str_digits(4300)
-try:
-    import bounds
-    import eliminant
-    from closures import proved_modes
-    from conditions import four_joints
-    from curve import curve
-    from distance import distance
-    from files import FAULTS, is_same, of_file
-    from geometry import geometry
-    from mechanism import Reader
-    from polynomial import polynomial_of
-    from quantities import Refused, Unreadable, fields, items, whole
-    from real_zeros import most_real
-    from short_loops import lengthened, own_modes
-except ImportError as error:
-    sys.exit(f"error: {error}; python-flint is needed: pip install python-flint")
+import eliminant
+from closures import SLIDE, THREE_JOINTS, Platform, proved_modes
+from conditions import four_joints
+from curve import curve
+from distance import distance
+from files import is_about
+from geometry import geometry
+from mechanism import system_of
+from polynomial import derived
+from quantities import Refused, expect, fields, items, require, whole
+from real_zeros import real_zeros
+from short_loops import lengthened, own_modes
 
-LARGEST = 128 << 20  # characters of a file of certificates
-# Items that bound the number of solutions: by what, their keys beside the kind, and whether complex solutions count, too.
-BOUNDS = {
-    "general-bound": (bounds.general, ("value",), True), "geometry-bound": (geometry, ("value",), True),
-    "eliminant": (eliminant.most_solutions, ("value", "aid"), True), "distance": (distance, (), False),
-    "own-eliminant": (eliminant.most_solutions, ("value", "aid"), True), "real-zeros": (most_real, ("value", "aid"), False),
-}
-# Items that decide whether a loop moves.
-MOTIONS = {"general-bound": bounds.immobile, "eliminant": eliminant.immobile, "regular": bounds.regular, "curve": curve}
+LARGEST = 128 << 20  # characters of a file: what is cut there is no JSON
+GENERAL = {0: 16, 1: 16, 2: 8, 3: 2}  # solutions of six rotations and translations, by the number of translations
 
 
-def check(certificate, of_file):
-    """The claim of a certificate in words, if it is what the proof shows. `of_file` returns the systems of a mechanism file."""
+def check(certificate, file):
+    """The claim of a certificate in words, if it is what the proof shows, and the data are those of a case of the file."""
     form, version, data, claim, modes, proof, _ = fields(
         certificate, ("format", "version", "data", "claim", "modes", "proof"), ("info",))
-    if form != "looproot-certificate" or whole(version) != 1:
-        raise Unreadable(f"found format {str(form)[:40]!r}, version {str(version)[:20]}, expected looproot-certificate, version 1")
-    if claim.get("verb") not in VERBS or not items(proof):
-        raise Refused("claim: only answers of solve, derive, mobility and conditions with a proof are covered")
-    has_input = claim["verb"] != "mobility"
-    system = Reader().system(data, has_input) if claim["verb"] != "conditions" else None  # those are about no mechanism
-    if of_file and not (system and any(is_same(system, own) for own in of_file(has_input))):
-        raise Refused("file: the data of the certificate are those of no case of the file")
-    found = {"verb": claim["verb"], "proof": "proved", **VERBS[claim["verb"]](system, data, claim, modes, *proof)}
-    plain = lambda value: json.dumps(value, sort_keys=True)
-    if plain(found) != plain(claim):
-        raise Refused(f"claim: found {plain(claim)[:200]}, where {plain(found)[:200]} is proved")
+    expect(form == "looproot-certificate" and whole(version) == 1, (form, version), "looproot-certificate, version 1")
+    verb = claim["verb"]
+    require(verb in VERBS and items(proof), "claim: only answers of solve, derive, mobility and conditions with a proof are covered")
+    system = system_of(data) if verb != "conditions" else None  # those are about no mechanism
+    require(not file or is_about(system, file, verb), "file: the data of the certificate are those of no case of the file")
+    found = {"verb": verb, "proof": "proved", **VERBS[verb](system, data, claim, modes, *proof)}
+    plain = lambda value: json.dumps(value, sort_keys=True)  # where 1, 1.0 and true differ
+    require(plain(found) == plain(claim), f"claim: found {plain(claim)[:200]}, where {plain(found)[:200]} is proved")
     return ", ".join(f"{key} {value}" for key, value in claim.items() if not isinstance(value, list))
 
 
 def solved(system, data, claim, modes, item, *others):
-    """Theorems 2 to 4, 8, 9 and 11: as many solutions are proved as there are at most; theorem 6: they form a curve."""
-    if item["kind"] == "curve" and not others:
+    """As many solutions are proved as there are at most, theorems 8, 9 and 11 count some of the modes; or they form a curve: theorem 6."""
+    kind = item["kind"]
+    if kind == "curve" and not others:
         return {"status": "self-motion", "self_motion": curve(system, data, item, modes)}
-    kind, (bound, keys, has_complex) = item["kind"], BOUNDS[item["kind"]]
-    is_short, is_of_own, longer = system.size < 6, kind == "own-eliminant", lengthened(system)
-    if is_short and not has_complex or not is_short and (is_of_own or others) or len(others) > 1:
-        raise Refused(f"proof: found {1 + len(others)} items, the first of kind {kind}, which prove nothing of {system.size} unknowns")
-    found, (_, *stated) = proved_modes(longer, modes), fields(item, ("kind", *keys))
-    most = bound(system if is_of_own else longer, *stated[1:])
-    if most is None or stated and whole(stated[0]) != most:
-        raise Refused(f"proof: {kind}: the value is {stated[:1]}, where the bound is {'not known' if most is None else most}")
-    if len(found) != most or not has_complex and not all(is_real for *_, is_real in found):
-        raise Refused(f"proof: {kind}: at most {most} solutions, and {len(found)} modes are proved, some of them perhaps not real")
-    if is_short:
-        found = own_modes(system, found, is_of_own, others)
-    real = sum(is_real for *_, is_real in found)
-    return {"status": "complete" if real else "unreachable", "real": real, **({"complex": len(found)} if has_complex else {})}
+    all_ones = LISTS[kind](system, modes, item) if kind in LISTS else all_modes(lengthened(system), modes, BOUNDS[kind], item)
+    found = own_modes(system, all_ones, item, *others)
+    real = sum(mode.is_real for mode in found)
+    numbers = {"real": real} if kind in ("distance", "real-zeros") else {"real": real, "complex": len(found)}
+    return {"status": "complete" if real else "unreachable", **numbers}
 
 
-def derived(system, data, claim, modes, item, *others):
-    """Theorem 10: beside all solutions the polynomial whose roots they are."""
-    if [other.get("kind") for other in others] != ["membership"]:
-        raise Refused("proof: the roots of a polynomial are proved by a bound and a membership")
-    found = solved(system, data, claim, modes, item)
-    if "complex" not in found:
-        raise Refused("proof: the roots of a polynomial are proved by all solutions")
-    return {**found, **polynomial_of(system, modes, claim, *others)}
+def all_modes(system, values, bound, item):
+    """The modes, where they are as many as the item says there are at most."""
+    _, stated, *aid = fields(item, ("kind", "value", *["aid"] * ("aid" in item)))
+    most, modes = bound(system, *aid), proved_modes(system, values)
+    require(most == whole(stated) == len(modes), f"proof: {item['kind']}: the bound is {most}, {stated} is stated, and {len(modes)} modes are proved")
+    return modes
+
+
+def general(system):
+    """Theorem 2."""
+    known = [GENERAL, THREE_JOINTS, {}][min(len(system.spherical), 2)]
+    return 40 if isinstance(system, Platform) else known.get(system.kinds.count(SLIDE))
 
 
 def moving(system, data, claim, modes, item, *others):
     """Theorems 5 to 7: whether a loop moves, and in how many dimensions."""
-    if others or data["mechanism"]["kind"] != "loop":
-        raise Refused("proof: of a loop one item shows whether it moves")
+    require(not others and data["mechanism"]["kind"] == "loop" and "input" not in data, "proof: one item shows whether a loop without input moves")
     dimension = MOTIONS[item["kind"]](system, data, item, modes)
     return {"status": "mobile" if dimension else "immobile", "mobility": dimension}
 
 
-VERBS = {"solve": solved, "derive": derived, "mobility": moving, "conditions": four_joints}
+def immobile(system, data, item, modes):
+    """Theorem 5: the loop, or the longer one, has as many solutions as theorem 2 allows."""
+    all_modes(lengthened(system), modes, general, item)
+    return 0
+
+
+def regular(system, data, item, modes):
+    """Theorem 7: with one unknown of seven held a real solution is simple."""
+    held = system_of({**data, "input": [fields(item, ("kind", "held"))[1]]})
+    is_shown = held.size == 6 and proved_modes(held, items(modes, 1))[0].is_real
+    require(is_shown, "mode 1: a real configuration of a loop of seven unknowns is asked for")
+    return 1
+
+
+# Items that bound the number of all solutions; that have a list of their own; that decide whether a loop moves.
+BOUNDS = {"general-bound": general, "geometry-bound": geometry, "eliminant": eliminant.most_solutions}
+LISTS = {"own-eliminant": eliminant.own_eliminant, "distance": distance, "real-zeros": real_zeros}
+MOTIONS = {"general-bound": immobile, "eliminant": eliminant.immobile, "regular": regular, "curve": curve}
+VERBS = {"solve": solved, "derive": functools.partial(derived, solved), "mobility": moving, "conditions": four_joints}
 
 
 def distinct(pairs):
-    table = dict(pairs)
-    if len(table) != len(pairs):
-        raise Unreadable("found a key twice in one object")
-    return table
+    expect(len(dict(pairs)) == len(pairs), pairs, "each key of an object once")
+    return dict(pairs)
 
 
 def certificates(path):
-    """The objects of a file, one behind the other, with their numbers from 1."""
+    """The objects of a file, one behind the other."""
+    with open(path, encoding="utf-8") as file:
+        text = file.read(LARGEST)
     decoder, space, at = json.JSONDecoder(object_pairs_hook=distinct), re.compile(r"\s*"), 0
-    try:
-        with open(path, encoding="utf-8") as file:
-            text = file.read(LARGEST + 1)
-        if len(text) > LARGEST:
-            raise Unreadable(f"found more than {LARGEST} characters")
-        for number in itertools.count(1):
-            if (at := space.match(text, at).end()) == len(text):
-                break
-            certificate, at = decoder.raw_decode(text, at)
-            yield number, certificate
-    except OSError as error:
-        raise Unreadable(error.strerror or "cannot be read") from None
-    except (RecursionError, ValueError) as error:
-        raise Unreadable(f"found no JSON: {str(error)[:80]}") from None
+    while (at := space.match(text, at).end()) < len(text):
+        certificate, at = decoder.raw_decode(text, at)
+        yield certificate
 
 
-def main(arguments):
-    is_help, code, is_empty = arguments[:1] in (["-h"], ["--help"]), 0, True
-    if is_help or len(arguments) != 1 and not (len(arguments) == 3 and arguments[1] == "--file"):
-        print(__doc__.strip(), file=sys.stdout if is_help else sys.stderr)
-        return 0 if is_help else 1
-    path, file = arguments[0], (lambda has_input: of_file(arguments[2], has_input)) if len(arguments) == 3 else None
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.error = lambda message: sys.exit(f"error: {message}")
+    parser.add_argument("certificate")
+    parser.add_argument("--file", help="the mechanism that the certificate has to be about")
+    arguments, code, number = parser.parse_args(), 0, 0
     try:
-        for number, certificate in certificates(path):
+        for number, certificate in enumerate(certificates(arguments.certificate), 1):
             try:
-                print(f"{path}:{number}: holds: {check(certificate, file)}")
+                print(f"{arguments.certificate}:{number}: holds: {check(certificate, arguments.file)}")
             except Refused as refusal:
-                print(f"{path}:{number}: refused: {refusal}")
+                print(f"{arguments.certificate}:{number}: refused: {refusal}")
                 code = 2
-            is_empty = False
-        if is_empty:
-            raise Unreadable("found no certificate")
-    except (Unreadable, *FAULTS) as error:
-        kind = "" if isinstance(error, Unreadable) else f"found what is no certificate: {type(error).__name__}: "
-        print(f"error: {path}: {kind}{str(error)[:200]}", file=sys.stderr)
-        return 1
-    return code
+        expect(number, "nothing", "a certificate")
+    except Exception as error:  # Python finds at many places that a text is no certificate
+        sys.exit(f"error: {arguments.certificate}: {type(error).__name__}: {str(error)[:200]}")
+    sys.exit(code)
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    main()

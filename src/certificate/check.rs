@@ -140,22 +140,28 @@ pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> 
         return refused("proof: the roots of a polynomial are proved by all solutions");
     }
     if kind == distance::KIND {
-        return out_of_reach(&closed, &proof[0], &record.claim, record.modes.len());
+        distance::check_distance(&closed, &proof[0])?;
     }
     if let Some(at) = record.modes.iter().position(|mode| mode.multiplicity != 1) {
         return refused(format!("mode {}: a ball of an isolated simple solution counts once", at + 1));
     }
     let balls: Vec<Ball> = record.modes.into_iter().map(|mode| mode.ball).collect();
     proved_modes(&closed, &balls)?;
+    if kind == distance::KIND {
+        return out_of_reach(&record.claim, &balls);
+    }
     if kind == real_zeros::KIND {
         return real_list(&closed, &proof[0], &record.claim, &balls);
     }
     let bound = bound(&closed, proof, &balls)?;
-    if bound != balls.len() {
+    if balls.len() != if kind == OF_OWN { shown(bound) } else { bound } {
         return refused(format!("proof: at most {bound} solutions, and {} modes are proved", balls.len()));
     }
     let balls = match &closed {
-        Closed::Chain(closure) if own < 6 => own_solutions(closure, balls, kind, second)?,
+        Closed::Chain(closure) if own < 6 => {
+            let own_bound = (kind == OF_OWN).then_some(bound);
+            own_solutions(closure, balls, own_bound, second)?
+        }
         _ => balls,
     };
     let (complex, real) = (balls.len(), balls.iter().filter(|ball| ball.real).count());
@@ -171,22 +177,28 @@ pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> 
     Ok(Holds::Solutions { complex, real })
 }
 
+/// Returns how many modes are asked for where so many solutions are counted and others may exist: where none is counted one of the
+/// others shows that the data are these.
+fn shown(counted: usize) -> usize {
+    counted.max(1)
+}
+
 /// Returns the balls of the solutions of a loop of fewer than six unknowns among those of the longer loop: theorem 11. An eliminant of
 /// the loop bounds their number, or one of the longer loop that of all balls.
 fn own_solutions(
     closure: &ChainClosure,
     balls: Vec<Ball>,
-    kind: &str,
+    own_bound: Option<usize>,
     item: Option<&Value>,
 ) -> Result<Vec<Ball>, Fault> {
     let points = item.map(|item| exact_solutions(closure, item)).transpose()?;
     let is_own = |ball: &Ball| match &points {
-        Some(points) if kind == OF_OWN => points.is_one_in(closure, ball),
+        Some(points) if own_bound.is_some() => points.is_one_in(closure, ball),
         _ => closure.may_be_own(ball),
     };
     let (modes, own) = (balls.len(), balls.into_iter().filter(is_own).collect::<Vec<_>>());
     let exact = points.map_or(0, |points| points.count());
-    if own.len() != exact || kind == OF_OWN && modes != exact {
+    if own.len() != exact || own_bound.is_some_and(|bound| bound != exact) {
         let own = own.len();
         return refused(format!(
             "proof: points: they are {exact}, and {own} of the {modes} modes may be solutions of the loop"
@@ -215,7 +227,7 @@ fn real_list(closed: &Closed, item: &Value, claim: &Claim, balls: &[Ball]) -> Re
         return refused(format!("proof: real-zeros: the value is {stated}, where the bound is {bound}"));
     }
     let real = balls.iter().filter(|ball| ball.real).count();
-    if real != bound || balls.len() != real {
+    if real != bound || balls.len() != shown(bound) {
         let modes = balls.len();
         return refused(format!(
             "proof: real-zeros: at most {bound} solutions, and {modes} modes are proved, {real} of them real"
@@ -228,11 +240,10 @@ fn real_list(closed: &Closed, item: &Value, claim: &Claim, balls: &[Ball]) -> Re
     Ok(Holds::Real(real))
 }
 
-/// Checks a certificate of an answer without real solutions that counts no complex ones.
-fn out_of_reach(closed: &Closed, item: &Value, claim: &Claim, modes: usize) -> Result<Holds, Fault> {
-    distance::check_distance(closed, item)?;
-    if modes > 0 {
-        return refused("modes: none are asked for here");
+/// Checks a certificate of an answer without real solutions by distances, which are checked, and that counts no complex ones.
+fn out_of_reach(claim: &Claim, balls: &[Ball]) -> Result<Holds, Fault> {
+    if balls.len() != shown(0) || balls.iter().any(|ball| ball.real) {
+        return refused("modes: one solution is asked for that is not real, and shows that the data are these");
     }
     if claim.status != "unreachable" || claim.real != Some(0) || claim.complex.is_some() {
         return refused("claim: no real solution is proved, and nothing of complex ones");

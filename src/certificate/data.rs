@@ -1,11 +1,14 @@
 //! The data of a case as a certificate holds them: a mechanism file of one case, every number in canonical form.
 
 use super::fault::{Fault, refused};
+use crate::algebra::enclosure::Enclosure;
 use crate::algebra::number::{Angle, Number};
+use crate::algebra::ring::Ring;
 use crate::catalogue::entry::{Case, Design, Entry, InputValue, Kind};
 use crate::catalogue::{Chains, Format, Options, load_text};
 use crate::kinematics::chain::{Chain, Geometry, Joint, Placement, ScrewJoint};
 use crate::kinematics::joint::DhConstant;
+use crate::kinematics::motion::dot;
 use rug::{Integer, Rational};
 use serde_json::{Map, Value, json};
 
@@ -154,36 +157,86 @@ fn primitive(direction: &[Rational; 3]) -> [Integer; 3] {
     whole.map(|x| if common > 1 { x.div_exact(&common) } else { x })
 }
 
-/// Returns the rows of a motion.
+/// Returns the rows of a motion, its rotation orthonormal: a rounded one is written as the rational rotation that stands for it.
 fn matrix(placed: &Placement, what: &str) -> Result<Value, String> {
-    let rows: [[String; 4]; 3] = match (&placed.given, placed.rows()) {
-        // A checker computes the nearest rotation by itself.
-        (_, Some(rows)) => {
-            let row = |i: usize| -> Result<[String; 4], String> {
-                let text = |j: usize| number(&rows[i][j], what);
-                Ok([text(0)?, text(1)?, text(2)?, text(3)?])
-            };
-            [row(0)?, row(1)?, row(2)?]
+    let given = placed.given.as_deref().filter(|given| !given.is_rotation);
+    let rows = placed.rows();
+    let is_exact = rows.as_ref().is_none_or(|rows| rows.iter().all(|row| row.iter().take(3).all(Number::is_exact)));
+    if let Some(given) = given.filter(|_| !is_exact) {
+        let column = |j: usize| given.motion.rotation.each_ref().map(|row| row[j].clone());
+        let is_unit = |i: usize, j: usize| {
+            dot(&column(i), &column(j)).sub(&Enclosure::from_integer(i32::from(i == j))).holds_zero()
+        };
+        if !(0..9).all(|k| is_unit(k / 3, k % 3)) {
+            return Err(format!("the rotation of the {what} is one of irrational numbers that are rounded"));
         }
-        (None, None) => {
-            let own =
-                |i: usize, j: usize| if j < 3 { &placed.exact.rotation[i][j] } else { &placed.exact.translation[i] };
-            let row = |i: usize| -> Result<[String; 4], String> {
-                let text = |j: usize| number(&Number::exact(own(i, j).clone()), what);
-                Ok([text(0)?, text(1)?, text(2)?, text(3)?])
-            };
-            [row(0)?, row(1)?, row(2)?]
-        }
-        (Some(_), None) => return Err(format!("the {what} is made of irrational numbers")),
+    }
+    if placed.given.is_some() && rows.is_none() {
+        return Err(format!("the {what} is made of irrational numbers"));
+    }
+    let own = |i: usize, j: usize| {
+        let known = rows.as_ref().map(|rows| &rows[i][j]).filter(|_| j == 3 || !is_exact);
+        let exact = if j < 3 { &placed.exact.rotation[i][j] } else { &placed.exact.translation[i] };
+        known.map_or_else(|| number(&Number::exact(exact.clone()), what), |known| number(known, what))
     };
-    let [first, second, third] = rows;
-    Ok(json!([first, second, third, ["0", "0", "0", "1"]]))
+    let row = |i: usize| (0..4).map(|j| own(i, j)).collect::<Result<Vec<_>, _>>();
+    Ok(json!([row(0)?, row(1)?, row(2)?, ["0", "0", "0", "1"]]))
 }
 
 fn number(number: &Number, what: &str) -> Result<String, String> {
-    number.text().ok_or_else(|| format!("a number of {what} is known by its rounded value only"))
+    let text = number.text().ok_or_else(|| format!("a number of {what} is known by its rounded value only"))?;
+    Ok(without_units(&text))
 }
 
 fn angle(angle: &Angle, what: &str) -> Result<String, String> {
-    angle.text().ok_or_else(|| format!("an angle of {what} is known by its rounded value only"))
+    let text = angle.text().ok_or_else(|| format!("an angle of {what} is known by its rounded value only"))?;
+    Ok(without_units(&text))
+}
+
+/// Returns an expression in radians, without units of angles. A unit binds less tightly than a sum.
+fn without_units(text: &str) -> String {
+    // Where the sums that are open begin.
+    let (mut starts, mut plain, mut rest) = (vec![0], String::new(), text);
+    while let Some(first) = rest.chars().next() {
+        let is_word = first.is_ascii_alphabetic();
+        let end = if is_word { rest.find(|c: char| !c.is_ascii_alphanumeric()) } else { Some(first.len_utf8()) };
+        let (piece, behind) = rest.split_at(end.unwrap_or(rest.len()));
+        rest = behind;
+        match piece {
+            "rad" => {}
+            "deg" => {
+                plain.insert(starts.last().copied().unwrap_or(0), '(');
+                plain.push_str(")*pi/180");
+            }
+            _ => plain.push_str(piece),
+        }
+        match piece {
+            "(" => starts.push(plain.len()),
+            ")" => drop(starts.pop()),
+            "," => {
+                starts.pop();
+                starts.push(plain.len());
+            }
+            _ => {}
+        }
+    }
+    plain.trim().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::without_units;
+
+    #[test]
+    fn units_of_angles_are_written_out() {
+        for (text, plain) in [
+            ("30 deg", "(30 )*pi/180"),
+            ("(180 - (99)) deg", "((180 - (99)) )*pi/180"),
+            ("cos(1 + 30deg)*sqrt(2)", "cos((1 + 30)*pi/180)*sqrt(2)"),
+            ("atan2(1e-3, sin(2 rad))", "atan2(1e-3, sin(2 ))"),
+            ("2*atan(1/3)", "2*atan(1/3)"),
+        ] {
+            assert_eq!(without_units(text), plain);
+        }
+    }
 }

@@ -21,6 +21,8 @@ use num_complex::Complex;
 use rug::{Integer, Rational, ops::Pow};
 use serde_json::{Value, json};
 
+/// The reason where no solution is counted and none can be shown.
+const NOTHING_SHOWN: &str = "no complex solution is known well enough to show what the data are";
 /// Largest number of decimals that a centre or a radius has.
 const DECIMALS: u32 = 30;
 
@@ -49,10 +51,13 @@ pub fn certificate(entry: &Entry, number: usize, case: &Case, solution: &Solutio
         return accepted(&info, &data, &claim, &balls, &proof);
     }
     let (claim, balls, proof) = counted(&closed, solution).or_else(|reason| {
+        let none = || not_real(entry, case, &closed, solution);
         let distance = if verdict.status == Status::Unreachable { proof_by_distance(&closed) } else { None };
         let claim = json!({ "verb": "solve", "status": "unreachable", "proof": "proved", "real": 0 });
-        let by_distance = distance.map(|proof| (claim, Vec::new(), proof));
-        by_distance.or_else(|| real_list(&closed, solution)).ok_or(reason)
+        match distance {
+            Some(proof) => Ok((claim, vec![none().ok_or(NOTHING_SHOWN)?], proof)),
+            None => real_list(&closed, solution, &none).ok_or(reason),
+        }
     })?;
     accepted(&info, &data, &claim, &balls, &[proof])
 }
@@ -106,7 +111,9 @@ fn of_short_loop(
         balls(closed, &near).ok_or("a solution of the longer loop is too ill conditioned for a ball of its own")?;
     let (own, points) = proof_of_points(closure, &near, &all)
         .ok_or("the solutions are no points with coordinates of few digits over one polynomial")?;
-    let by_own = || Some((own.clone(), proof_of_own(closure, &own)?));
+    // Where the loop has no solution, one of the longer loop shows that the data are these.
+    let shown = || if own.is_empty() { all.first().cloned().map(|ball| vec![ball]) } else { Some(own.clone()) };
+    let by_own = || Some((shown()?, proof_of_own(closure, &own)?));
     let (balls, bound) = by_own()
         .or_else(|| proof_of(closed, &all).map(|bound| (all, bound)))
         .ok_or("no bound of docs/certificate.md is met by the loop, or by the longer one")?;
@@ -135,7 +142,11 @@ fn solved(complex: usize, real: usize) -> Value {
 
 /// Returns the claim of an answer about real solutions alone, a ball around each, and the item that bounds their number; `None` if
 /// there is none.
-fn real_list(closed: &Closed, solution: &Solution) -> Option<(Value, Vec<Ball>, Value)> {
+fn real_list(
+    closed: &Closed,
+    solution: &Solution,
+    none: &dyn Fn() -> Option<Ball>,
+) -> Option<(Value, Vec<Ball>, Value)> {
     let near: Vec<(Vec<Complex<f64>>, bool)> = solution
         .modes
         .iter()
@@ -145,7 +156,29 @@ fn real_list(closed: &Closed, solution: &Solution) -> Option<(Value, Vec<Ball>, 
     let balls = balls(closed, &near)?;
     let proof = proof_of_real_list(closed, balls.len())?;
     let status = if balls.is_empty() { "unreachable" } else { "complete" };
-    Some((json!({ "verb": "solve", "status": status, "proof": "proved", "real": balls.len() }), balls, proof))
+    let claim = json!({ "verb": "solve", "status": status, "proof": "proved", "real": balls.len() });
+    Some((claim, if balls.is_empty() { vec![none()?] } else { balls }, proof))
+}
+
+/// Returns a ball around one solution that is not real. Where no solution is counted it shows that the data are these.
+fn not_real(entry: &Entry, case: &Case, closed: &Closed, solution: &Solution) -> Option<Ball> {
+    let of_solution = |solution: &Solution| -> Vec<Near> {
+        let simple = solution.modes.iter().filter(|mode| !mode.near && !mode.real);
+        simple.map(|mode| (unknowns(closed, mode), false)).collect()
+    };
+    // An answer about real solutions alone may list no others.
+    let searched = || match closed {
+        Closed::Chain(closure) => found(closure),
+        Closed::Platform(_) => {
+            let mechanism = Mechanism::prepare(entry).ok();
+            let solved = mechanism.and_then(|mechanism| {
+                mechanism.solve(case, Roots::All, &mut Workspace::default(), &mut Assembly::default()).ok()
+            });
+            solved.map_or_else(Vec::new, |solution| of_solution(&solution))
+        }
+    };
+    let near = of_solution(solution).into_iter().chain(std::iter::once_with(searched).flatten());
+    near.filter(|(_, real)| !real).find_map(|one| balls(closed, &[one]))?.pop()
 }
 
 /// Returns the certificate of a closure polynomial: its roots are the half-angle tangents of one joint at all solutions. The checker of

@@ -22,6 +22,8 @@ MOTIONS = ["overconstrained/bennett_a", "overconstrained/bennett_broken", "overc
 IMMOBILE = ["overconstrained/bennett_broken", "chain/scp", "chain/ccc"]
 
 
+NOTHING_COUNTED = ["far", "overconstrained-dietmaier_broken"]  # certificates of no solution
+CORE = ["verify.py", "quantities.py", "mechanism.py", "motions.py", "closures.py"]  # arms, loops, platforms and mobility
 AID = {"first": 0, "hidden": 0, "shift": "0"}
 
 
@@ -39,6 +41,17 @@ CHECKERS = {
     "rust": lambda *rest, limit=None: run(LOOPROOT, "verify", *rest, limit=limit),
     "python": lambda *rest, limit=None: run(sys.executable, VERIFY, *rest, limit=limit),
 }
+
+
+def test_the_checker_can_be_read_in_one_sitting():
+    texts = {path.name: path.read_text() for path in pathlib.Path(VERIFY).parent.glob("*.py")}
+    sizes = {name: len(text.splitlines()) for name, text in texts.items()}
+    core = sum(sizes[name] for name in CORE)
+    assert core < 500 and f"five files of {core} lines" in (ROOT / "docs/certificate.md").read_text(), core
+    assert all(size <= 150 for size in sizes.values()), sizes
+    # Only verify.py knows of the further theorems.
+    imported = {f"{name}.py" for file in CORE[1:] for name in re.findall(r"^from (\w+) import|^import (\w+)", texts[file], re.M) for name in name}
+    assert not imported & (texts.keys() - set(CORE)), imported
 
 
 @pytest.fixture(scope="session")
@@ -223,21 +236,24 @@ def turned(mode):
     return {**mode, "centre": [first, *mode["centre"][1:]], "radius": "0.0000001"}
 
 
-@pytest.mark.parametrize("checker", CHECKERS)
-def test_distances_prove_that_nothing_is_in_reach(certificates, tmp_path, checker):
+@pytest.fixture(scope="session")
+def far(certificates):
     """A platform with a leg longer than the way round by any other one."""
     source = (ROOT / "equations/platform/dietmaier_40real.toml").read_text()
     at = source.index("legs = ")
-    far = tmp_path / "far.toml"
-    far.write_text(source[:at] + 'legs = [0.9, 0.9, 0.88, 1e-7, 1e7, 0.75]\n')
-    path = tmp_path / "certificate"
-    solved = run(LOOPROOT, "solve", far, "-q", "--certificate", path)
-    assert solved.returncode == 3, solved
-    assert json.loads(path.read_text())["proof"] == [{"kind": "distance"}]
-    answer = CHECKERS[checker](path, "--file", far)
+    (certificates / "far.toml").write_text(source[:at] + 'legs = [0.9, 0.9, 0.88, 1e-7, 1e7, 0.75]\n')
+    solved = run(LOOPROOT, "solve", certificates / "far.toml", "-q", "--certificate", certificates / "far")
+    assert solved.returncode == 3 and not solved.stderr, solved
+    return certificates / "far"
+
+
+@pytest.mark.parametrize("checker", CHECKERS)
+def test_distances_prove_that_nothing_is_in_reach(certificates, far, tmp_path, checker):
+    assert json.loads(far.read_text())["proof"] == [{"kind": "distance"}]
+    answer = CHECKERS[checker](far, "--file", f"{far}.toml")
     assert answer.returncode == 0 and re.search("no real solution|real 0", answer.stdout), answer
     true = json.loads((certificates / "platform-points_6_3").read_text())
-    forged = {**true, "modes": [], "proof": [{"kind": "distance"}], "claim": {**json.loads(path.read_text())["claim"]}}
+    forged = {**true, "modes": [], "proof": [{"kind": "distance"}], "claim": {**json.loads(far.read_text())["claim"]}}
     answer = CHECKERS[checker](written(tmp_path / "forged", forged))
     assert answer.returncode == 2 and "distance" in answer.stdout, answer
 
@@ -264,6 +280,26 @@ def test_self_motions_are_certified(certificates, tmp_path, checker, entry, join
     for name, parts in forged.items():
         answer = CHECKERS[checker](written(tmp_path / "forged", {**true, **parts}))
         assert answer.returncode in (1, 2) and "holds" not in answer.stdout, (name, answer)
+
+
+@pytest.mark.parametrize("checker", CHECKERS)
+@pytest.mark.parametrize("name", NOTHING_COUNTED)
+def test_where_no_solution_is_counted_another_one_shows_the_data(certificates, far, tmp_path, checker, name):
+    true = lines(certificates / name)[0]
+    (mode,) = true["modes"]
+    assert true["claim"]["real"] == true["claim"].get("complex", 0) == true["proof"][0].get("value", 0) == 0
+    forged = {
+        "no mode": {"modes": []},
+        "two modes": {"modes": [mode, mode]},
+        "a real mode": {"modes": [{**mode, "real": not mode["real"]}]},
+        "another mode": {"modes": [{**mode, "centre": ["0.1", *mode["centre"][1:]]}]},
+        "solutions that are counted": {"claim": {**true["claim"], "complex": 1}},
+        "a real solution that is counted": {"claim": {**true["claim"], "real": 1, "status": "complete"}},
+    }
+    assert CHECKERS[checker](written(tmp_path / "true", true)).returncode == 0
+    for what, change in forged.items():
+        answer = CHECKERS[checker](written(tmp_path / "forged", {**true, **change}))
+        assert answer.returncode == 2 and "refused: " in answer.stdout, (what, answer)
 
 
 @pytest.mark.parametrize("checker", CHECKERS)
@@ -441,8 +477,8 @@ def test_what_is_no_certificate_is_said_in_one_line(certificates, tmp_path, chec
 
 @pytest.mark.parametrize("entry", ["arm/puma560", "chain/crcr", "loop/rrsrr", "overconstrained/bennett_a",
                                    "overconstrained/bennett_broken", "as_built", "arm/chain_cc", "overconstrained/dietmaier_a-motion",
-                                   "chain/structure_5r", "chain/ccc"])
-def test_no_other_number_may_change(certificates, as_built, capsys, entry):
+                                   "chain/structure_5r", "chain/ccc", *NOTHING_COUNTED])
+def test_no_other_number_may_change(certificates, as_built, far, capsys, entry):
     """What is under `aid`, radii and centres may stay valid; all other changes are refused by both checkers."""
     sys.path.insert(0, str(pathlib.Path(__file__).parent))
     import mutations
