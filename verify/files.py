@@ -32,11 +32,12 @@ class File:
         return text if HALF_TANGENT.fullmatch(text) else right_angle(text, self.radian) or in_units(text, self.radian)
 
     def matrix(self, rows):
-        texts = [[*(in_units(x, "m") for x in row[:3]), self.length(row[3])] for row in rows]
-        rotation = [[number(x) for x in row[:3]] for row in texts[:3]]
-        if all(map(is_exact, rotation)):
-            texts[:3] = [[*map(str, row), own[3]] for row, own in zip(rotation_near(rotation), texts)]
-        return texts
+        *rows, last = items(rows, 4)
+        rotation = [[in_units(x, "m") for x in row[:3]] for row in rows]
+        values = [[*map(number, row)] for row in rotation]
+        if all(map(is_exact, values)):
+            rotation = [map(str, row) for row in rotation_near(values)]
+        return [[*texts, self.length(row[3])] for texts, row in zip(rotation, rows)] + [last]
 
     def pose(self, table):
         if "matrix" in table:

@@ -7,7 +7,7 @@ use crate::catalogue::entry::{Case, Design, Entry};
 use crate::certificate::{
     Ball, ChainClosure, Closed, FAMILIES, FORMAT, Fault, Listed, Near, VERSION, balls, check, claim_of_families,
     closed, data_of, data_of_loop, proof_by_distance, proof_of, proof_of_motion, proof_of_own, proof_of_points,
-    proof_of_polynomial, proof_of_real_list, proof_of_rest, proof_of_self_motion,
+    proof_of_polynomial, proof_of_real_list, proof_of_rest, proof_of_self_motion, proved_modes,
 };
 use crate::conditions::four_bar::{self, FourBar};
 use crate::derivation::Derivation;
@@ -23,6 +23,9 @@ use serde_json::{Value, json};
 
 /// The reason where no solution is counted and none can be shown.
 const NOTHING_SHOWN: &str = "no complex solution is known well enough to show what the data are";
+/// Factor by which the radius of a solution that is not counted is smaller than it may be: where nothing is in reach, lengths may differ by
+/// many powers of ten, and another checker then bounds derivatives by that much more.
+const NARROWER: u32 = 1000;
 /// Largest number of decimals that a centre or a radius has.
 const DECIMALS: u32 = 30;
 
@@ -178,7 +181,9 @@ fn not_real(entry: &Entry, case: &Case, closed: &Closed, solution: &Solution) ->
         }
     };
     let near = of_solution(solution).into_iter().chain(std::iter::once_with(searched).flatten());
-    near.filter(|(_, real)| !real).find_map(|one| balls(closed, &[one]))?.pop()
+    let ball = near.filter(|(_, real)| !real).find_map(|one| balls(closed, &[one]))?.pop()?;
+    let narrow = [Ball { radius: Rational::from(&ball.radius / NARROWER), ..ball.clone() }];
+    Some(if proved_modes(closed, &narrow).is_ok() { narrow[0].clone() } else { ball })
 }
 
 /// Returns the certificate of a closure polynomial: its roots are the half-angle tangents of one joint at all solutions. The checker of

@@ -91,6 +91,7 @@ def table(paths):
     counts = collections.Counter()
     for path in paths:
         for certificate in verify.certificates(path):
+            assert accepted_by_python(certificate) and accepted_by_rust([certificate]) == [True], path
             is_symbolic = certificate["claim"]["verb"] == "conditions"
             places, others = zip(*changed(certificate), *(turned(certificate) if is_symbolic else ()))
             answers = {"python": map(accepted_by_python, others), "rust": accepted_by_rust(others)}

@@ -123,6 +123,10 @@ fn distances_prove_that_nothing_is_in_reach() {
     forged(&all_near, "distance");
     forged(&|own| own["claim"]["complex"] = json!(16), "claim");
     forged(&|own| own["claim"]["status"] = json!("complete"), "claim");
+    // A complex solution shows that the data are these.
+    forged(&|own| own["modes"] = json!([]), "modes");
+    forged(&|own| own["modes"] = json!([own["modes"][0], own["modes"][0]]), "the same solution");
+    forged(&|own| own["data"]["mechanism"]["joints"][0]["d"] = json!("0.41"), "mode 1");
     let near = FAR.replace("300000, 100000, 500000", "0.3, 0.1, 0.5");
     let near = run(&["verify", &path, "--file", &file("certificates/near.toml", near)]);
     assert!(near.code == 2 && near.out.contains("file"), "{}", near.out);
@@ -187,6 +191,25 @@ fn real_zeros_prove_that_no_real_solution_is_missing() {
     forged(&|own| own["proof"][0]["aid"]["hidden"] = json!(3), "real-zeros");
     forged(&|own| own["proof"] = json!([{ "kind": "general-bound", "value": 16 }]), "proof");
     forged(&|own| own["data"]["mechanism"]["joints"][0]["d"] = json!("0.0900010001"), "mode 1");
+}
+
+#[test]
+fn a_loop_without_solutions_names_one_of_the_longer_loop() {
+    let path = certified("solve", "overconstrained/dietmaier_broken");
+    let true_one = fs::read_to_string(&path).unwrap().lines().next().map(json).unwrap();
+    assert_eq!(true_one["proof"][0]["kind"], json!("own-eliminant"));
+    assert_eq!(true_one["modes"].as_array().unwrap().len(), 1);
+    for (pointer, value, says) in [
+        ("/modes", json!([]), "0 modes"),
+        ("/modes/0/centre/0", json!("0.5"), "mode 1"),
+        ("/data/mechanism/joints/1/a", json!("3.25"), "mode 1"),
+        ("/proof/0/value", json!(1), "proof"),
+    ] {
+        let mut forged = true_one.clone();
+        *forged.pointer_mut(pointer).unwrap() = value;
+        let checked = run(&["verify", &file("certificates/forged_none", forged.to_string())]);
+        assert!(checked.code == 2 && checked.out.contains(says), "{pointer}: {}", checked.out);
+    }
 }
 
 #[test]
