@@ -1,5 +1,6 @@
 //! Exact determinants: of numbers, of polynomials without fractions, and of matrix polynomials by their values.
 
+use super::int::Int;
 use super::modular::{degree_bound, univariate_determinant};
 use super::ring::{Domain, Field, Ring};
 use super::univariate::Univariate;
@@ -131,25 +132,31 @@ where
 {
     let (size, entries) = entries(coefficients);
     let (entries, denominator) = without_denominators(size, &entries);
-    let determinant = of_entries(size, entries);
-    Univariate::new(determinant.into_iter().map(|c| Rational::from((c, denominator.clone()))).collect())
+    let determinant = of_polynomials(size, entries);
+    let quotient = |c: Int| Rational::from((c.to_integer(), denominator.clone()));
+    Univariate::new(determinant.into_iter().map(quotient).collect())
 }
 
 /// Returns the coefficients of the determinant of a matrix of polynomials in one variable, constant terms first, the entries row
-/// by row; zeros may stand at the end.
-pub(super) fn of_entries(size: usize, mut entries: Vec<Vec<Integer>>) -> Vec<Integer> {
-    let mut content = Integer::from(1);
+/// by row; zeros may stand at the end. It is as exact and as proved as [`modular`].
+///
+/// # Panics
+/// When the number of entries is not the square of the size.
+#[must_use]
+pub fn of_polynomials(size: usize, mut entries: Vec<Vec<Int>>) -> Vec<Int> {
+    assert_eq!(entries.len(), size * size, "a determinant is of a square matrix");
+    let mut content = Int::one();
     for i in 0..size {
-        content *= remove_content(&mut entries, i * size..(i + 1) * size, 1);
+        content = content.mul(&remove_content(&mut entries, i * size..(i + 1) * size, 1));
     }
     for j in 0..size {
-        content *= remove_content(&mut entries, j..size * size, size);
+        content = content.mul(&remove_content(&mut entries, j..size * size, size));
     }
-    let mut determinant = univariate_determinant(size, &entries);
-    for c in &mut determinant {
-        *c *= &content;
+    let determinant = univariate_determinant(size, &entries);
+    if content == Int::one() {
+        return determinant;
     }
-    determinant
+    determinant.iter().map(|c| c.mul(&content)).collect()
 }
 
 /// Returns the size of the matrices, and row by row the entries of the matrix polynomial, each by its coefficients.
@@ -169,9 +176,9 @@ fn entries<'a, M: AsRef<[Row]>, Row: AsRef<[R]> + 'a, R>(coefficients: &'a [M]) 
 }
 
 /// Returns the entries with integers for coefficients, and the denominator by which the determinant was thereby multiplied.
-fn without_denominators(size: usize, entries: &[Vec<&Rational>]) -> (Vec<Vec<Integer>>, Integer) {
+fn without_denominators(size: usize, entries: &[Vec<&Rational>]) -> (Vec<Vec<Int>>, Integer) {
     let mut denominator = Integer::from(1);
-    let mut integers: Vec<Vec<Integer>> = Vec::with_capacity(entries.len());
+    let mut integers: Vec<Vec<Int>> = Vec::with_capacity(entries.len());
     for row in entries.chunks_exact(size.max(1)) {
         let mut common = Integer::from(1);
         for q in row.iter().flatten() {
@@ -179,7 +186,10 @@ fn without_denominators(size: usize, entries: &[Vec<&Rational>]) -> (Vec<Vec<Int
                 common.lcm_mut(q.denom());
             }
         }
-        let scaled = |q: &&Rational| Integer::from(common.div_exact_ref(q.denom())) * q.numer();
+        let scaled = |q: &&Rational| match (q.numer().to_i64(), common == *q.denom()) {
+            (Some(numerator), true) => Int::from(numerator),
+            _ => Int::from(Integer::from(common.div_exact_ref(q.denom())) * q.numer()),
+        };
         integers.extend(row.iter().map(|entry| entry.iter().map(scaled).collect()));
         denominator *= common;
     }
@@ -187,19 +197,19 @@ fn without_denominators(size: usize, entries: &[Vec<&Rational>]) -> (Vec<Vec<Int
 }
 
 /// Divides entries by the greatest common divisor of their coefficients, and returns it, or 1 if all are zero.
-fn remove_content(entries: &mut [Vec<Integer>], range: Range<usize>, step: usize) -> Integer {
-    let mut content = Integer::new();
+fn remove_content(entries: &mut [Vec<Int>], range: Range<usize>, step: usize) -> Int {
+    let (mut content, one) = (Int::zero(), Int::one());
     for c in entries[range.clone()].iter().step_by(step).flatten() {
-        content.gcd_mut(c);
-        if content == 1 {
+        content = content.gcd(c);
+        if content == one {
             return content;
         }
     }
-    if content == 0 {
-        return Integer::from(1);
+    if content.is_zero() {
+        return one;
     }
     for c in entries[range].iter_mut().step_by(step).flatten() {
-        c.div_exact_mut(&content);
+        *c = c.div_exact(&content);
     }
     content
 }

@@ -32,6 +32,15 @@ impl Norms {
         Self { exponent, sums }
     }
 
+    /// As `new`, of coefficients that are words: their sums do not overflow.
+    pub(super) fn of_words(count: usize, coefficients: impl Iterator<Item = (usize, i64)>) -> Self {
+        let mut sums = vec![0.0; count];
+        for (k, c) in coefficients {
+            sums[k] += c.unsigned_abs() as f64;
+        }
+        Self { exponent: 0, sums }
+    }
+
     /// Returns the binary logarithm of an upper bound on the Euclidean norm of a row of polynomials, given their indices.
     pub(super) fn bits(&self, row: impl Iterator<Item = usize>) -> f64 {
         let square: f64 = row.map(|k| self.sums[k] * self.sums[k]).sum();

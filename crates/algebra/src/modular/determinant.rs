@@ -4,11 +4,13 @@ use super::batch::place;
 use super::bound::Norms;
 use super::cost::cost;
 use super::lattice::Lattice;
+use super::minors::Minors;
 use super::problem::{Form, Problem, most_points};
 use super::substitution::Plan;
 use super::terms::{Terms, descending};
+use crate::int::Int;
+use crate::ring::Ring;
 use pulp::Arch;
-use rug::Integer;
 
 /// Returns the determinant of a matrix of polynomials in several variables.
 ///
@@ -33,7 +35,8 @@ pub(super) fn determinant_on(arch: Arch, matrix: &[Vec<Terms>], variables: usize
     let entries = || matrix.iter().flatten().enumerate();
     let terms = entries().flat_map(|(slot, entry)| entry.iter(variables).map(move |(e, c)| (slot, e, c)));
 
-    let Some(bits) = bits(size, terms.clone().map(|(slot, _, c)| (slot, c))) else { return Some(Terms::default()) };
+    let norms = Norms::new(size * size, terms.clone().map(|(slot, _, c)| (slot, c)));
+    let Some(bits) = bits(size, &norms) else { return Some(Terms::default()) };
     let bound = |size_of: &dyn Fn(&[u32]) -> usize| {
         let mut degrees = vec![0; size * size];
         for (slot, e, _) in terms.clone() {
@@ -66,27 +69,46 @@ pub(super) fn determinant_on(arch: Arch, matrix: &[Vec<Terms>], variables: usize
 ///
 /// # Shape
 /// `entries` holds the entries row by row, each by its coefficients, constant term first.
-pub(crate) fn univariate_determinant(size: usize, entries: &[Vec<Integer>]) -> Vec<Integer> {
-    univariate_determinant_on(Arch::new(), size, entries)
+pub(crate) fn univariate_determinant(size: usize, entries: &[Vec<Int>]) -> Vec<Int> {
+    short_determinant(size, entries, None).unwrap_or_else(|| by_values(Arch::new(), size, entries))
 }
 
-pub(super) fn univariate_determinant_on(arch: Arch, size: usize, entries: &[Vec<Integer>]) -> Vec<Integer> {
-    let coefficients = || entries.iter().enumerate().flat_map(|(slot, entry)| entry.iter().map(move |c| (slot, c)));
-    let Some(bits) = bits(size, coefficients()) else { return Vec::new() };
+/// As `univariate_determinant`, by minors in machine words; `None` if they would be too short, or if that is predicted to take
+/// more nanoseconds than the limit, or without a limit more than from values.
+pub(crate) fn short_determinant(size: usize, entries: &[Vec<Int>], limit: Option<f64>) -> Option<Vec<Int>> {
+    let minors = Minors::new(size, entries)?;
+    let words = || minors.entries.iter().enumerate().flat_map(|(slot, entry)| entry.iter().map(move |c| (slot, *c)));
+    let Some(bits) = bits(size, &Norms::of_words(size * size, words())) else { return Some(Vec::new()) };
+    let (terms, degree) = (words().count(), minors.degree());
+    let limit = limit.or_else(|| determinant_cost(size, &[degree], degree, bits, terms));
+    minors.determinant(bits, limit.unwrap_or(f64::INFINITY))
+}
+
+/// As `univariate_determinant`, from values modulo primes on a chosen instruction set.
+pub(super) fn by_values(arch: Arch, size: usize, entries: &[Vec<Int>]) -> Vec<Int> {
     let degrees: Vec<usize> =
         entries.iter().map(|entry| entry.iter().rposition(|c| !c.is_zero()).unwrap_or(0)).collect();
     let lattice = Lattice::new(&[degree_bound(size, &degrees)], usize::MAX, usize::MAX)
         .expect("there is no limit to the number of points");
     let (mut slots, mut exponents, mut coefficients) = (Vec::new(), Vec::new(), Vec::new());
+    let mut places = Vec::new();
     for (slot, entry) in entries.iter().enumerate() {
         for (k, c) in entry.iter().enumerate().rev().filter(|(_, c)| !c.is_zero()) {
+            places.push(slot);
             slots.push(place(size, slot));
             exponents.push(u32::try_from(k).expect("the degree fits a u32"));
-            coefficients.push(c);
+            coefficients.push(c.to_integer());
         }
     }
+    let norms = Norms::new(size * size, places.into_iter().zip(&coefficients));
+    let Some(bits) = bits(size, &norms) else { return Vec::new() };
     let plan = Plan::new(&slots, &exponents, 1);
-    Problem { form: Form::Matrix(size), plan, coefficients, lattice, bits }.solve(arch)
+    let coefficients = coefficients.iter().collect();
+    Problem { form: Form::Matrix(size), plan, coefficients, lattice, bits }
+        .solve(arch)
+        .into_iter()
+        .map(Int::from)
+        .collect()
 }
 
 /// Returns what [`determinant`] is predicted to cost, in nanoseconds, for a matrix of this size with so many terms in all,
@@ -99,8 +121,7 @@ pub(crate) fn determinant_cost(size: usize, degrees: &[usize], total: usize, bit
 }
 
 /// Returns the binary logarithm of a bound on the coefficients of the determinant; `None` where a row or a column is zero.
-fn bits<'a>(size: usize, coefficients: impl Iterator<Item = (usize, &'a Integer)> + Clone) -> Option<f64> {
-    let norms = Norms::new(size * size, coefficients);
+fn bits(size: usize, norms: &Norms) -> Option<f64> {
     let rows: f64 = (0..size).map(|i| norms.bits((0..size).map(|j| i * size + j))).sum();
     let columns: f64 = (0..size).map(|j| norms.bits((0..size).map(|i| i * size + j))).sum();
     let bits = f64::min(rows, columns);

@@ -11,6 +11,7 @@ mod cost;
 mod determinant;
 pub mod lanes;
 mod lattice;
+mod minors;
 pub mod primes;
 mod problem;
 mod resultant;
@@ -18,7 +19,7 @@ mod substitution;
 mod terms;
 
 pub use determinant::determinant;
-pub(super) use determinant::{degree_bound, determinant_cost, univariate_determinant};
+pub(super) use determinant::{degree_bound, determinant_cost, short_determinant, univariate_determinant};
 pub use resultant::resultant;
 pub(super) use resultant::resultant_cost;
 pub use terms::Terms;

@@ -273,7 +273,8 @@ fn determinant_modulo(prime: u64, rows: &[Vec<i64>]) -> i64 {
 mod tests {
     use super::*;
     use crate::determinant::bareiss;
-    use crate::modular::determinant::{determinant_on, univariate_determinant_on};
+    use crate::int::Int;
+    use crate::modular::determinant::{by_values, determinant_on, univariate_determinant};
     use crate::modular::primes::primes_beyond;
     use crate::modular::resultant::resultant_on;
     use crate::modular::terms::Terms;
@@ -295,9 +296,12 @@ mod tests {
         let rows: Vec<Vec<_>> =
             entries.chunks(size).map(|row| row.iter().map(|entry| polynomial(entry)).collect()).collect();
         let expected = bareiss(&rows);
+        let integers = |c: &[Int]| c.iter().map(Int::to_integer).collect::<Vec<_>>();
+        let own: Vec<Vec<Int>> = entries.iter().map(|entry| entry.iter().cloned().map(Int::from).collect()).collect();
         for arch in [Arch::new(), Arch::Scalar] {
-            assert_eq!(polynomial(&univariate_determinant_on(arch, size, entries)), expected, "{arch:?}");
+            assert_eq!(polynomial(&integers(&by_values(arch, size, &own))), expected, "{arch:?}");
         }
+        assert_eq!(polynomial(&integers(&univariate_determinant(size, &own))), expected);
     }
 
     #[test]

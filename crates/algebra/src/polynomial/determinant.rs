@@ -1,7 +1,7 @@
 //! Determinants of matrices of polynomials with integer coefficients: the choice of the route.
 
 use super::Polynomial;
-use crate::determinant::{bareiss, of_entries};
+use crate::determinant::{bareiss, of_polynomials};
 use crate::int::Int;
 use crate::minors::{Expansion, Price, cells};
 use crate::modular::{self, Terms};
@@ -91,15 +91,14 @@ impl Matrix<'_> {
     /// From the coefficients of one variable.
     fn univariate(&self, variable: usize) -> Polynomial<Int> {
         let coefficients = |entry: &Polynomial<Int>| {
-            let mut coefficients = vec![rug::Integer::new(); entry.degree(variable) as usize + 1];
+            let mut coefficients = vec![Int::zero(); entry.degree(variable) as usize + 1];
             for (term, c) in entry.coefficients().iter().enumerate() {
-                coefficients[entry.exponent(term, variable) as usize] = c.to_integer();
+                coefficients[entry.exponent(term, variable) as usize] = c.clone();
             }
             coefficients
         };
-        let determinant = of_entries(self.rows.len(), self.entries().map(coefficients).collect());
-        let image = determinant.into_iter().map(Int::from).collect();
-        Polynomial::from_univariate(variable, &Univariate::new(image))
+        let determinant = of_polynomials(self.rows.len(), self.entries().map(coefficients).collect());
+        Polynomial::from_univariate(variable, &Univariate::new(determinant))
     }
 
     /// Returns the plan for an expansion by minors, if it is predicted to cost less than the limit.

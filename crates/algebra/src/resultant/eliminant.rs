@@ -1,6 +1,6 @@
 //! Eliminates a variable from two polynomials in several, and recovers it.
 
-use super::bezout::Expansion;
+use super::bezout::{self, Expansion};
 use super::common_divisor::common_divisor;
 use super::route;
 use super::subresultant;
@@ -10,6 +10,9 @@ use crate::polynomial::Polynomial;
 use crate::ring::{Domain, Field, Ring};
 use crate::univariate::Univariate;
 use std::borrow::Cow;
+
+/// Rows of a Bezout matrix beyond which its minors in words are not worth a trial.
+const MOST_ROWS: usize = 6;
 
 /// Returns the resultant of two polynomials with respect to a variable, with the sign of the Sylvester determinant.
 ///
@@ -49,10 +52,40 @@ fn by_values(f: &Polynomial<Int>, g: &Polynomial<Int>, variable: usize) -> Optio
     let variables = f.variables().max(g.variables()).max(variable + 1);
     let (of_f, of_g) = (Terms::of(f, variables), Terms::of(g, variables));
     let (cost, values) = modular::resultant_cost(&of_f, &of_g, variables, variable)?;
+    if let Some(resultant) = by_words(f, g, variable, cost) {
+        return Some(resultant);
+    }
     if !route::values_pay(f, g, variable, cost, values) {
         return None;
     }
     modular::resultant(&of_f, &of_g, variables, variable).map(|terms| terms.polynomial(variables))
+}
+
+/// Returns the resultant of polynomials with one parameter as the determinant of the Bezout matrix in machine words; `None` where
+/// that is not possible, or takes more nanoseconds than the limit.
+fn by_words(f: &Polynomial<Int>, g: &Polynomial<Int>, variable: usize, limit: f64) -> Option<Polynomial<Int>> {
+    let (m, n) = (f.degree(variable) as usize, g.degree(variable) as usize);
+    if m < n {
+        let swapped = by_words(g, f, variable, limit)?;
+        return Some(if m * n % 2 == 1 { swapped.neg() } else { swapped });
+    }
+    let occurs = |v: &usize| *v != variable && (f.degree(*v) > 0 || g.degree(*v) > 0);
+    let mut parameters = (0..f.variables().max(g.variables())).filter(occurs);
+    let parameter = parameters.next()?;
+    if m > MOST_ROWS || parameters.next().is_some() {
+        return None;
+    }
+    let coefficients = |f: &Polynomial<Int>| {
+        let mut parts = vec![vec![Int::zero(); f.degree(parameter) as usize + 1]; f.degree(variable) as usize + 1];
+        for (term, c) in f.coefficients().iter().enumerate() {
+            parts[f.exponent(term, variable) as usize][f.exponent(term, parameter) as usize] = c.clone();
+        }
+        parts.into_iter().map(Univariate::new).collect::<Vec<_>>()
+    };
+    let matrix = bezout::matrix(&coefficients(f), &coefficients(g));
+    let entries: Vec<Vec<Int>> = matrix.iter().flatten().map(|entry| entry.coefficients().to_vec()).collect();
+    let determinant = modular::short_determinant(m, &entries, Some(limit))?;
+    Some(Polynomial::from_univariate(parameter, &Univariate::new(determinant)))
 }
 
 /// Returns the greatest common divisor of the coefficients, and the polynomial without it.

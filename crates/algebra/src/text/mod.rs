@@ -24,4 +24,4 @@ pub use fault::{Fault, Place};
 pub use format::Format;
 pub use fraction::Fraction;
 pub use names::Names;
-pub use scanner::read_number;
+pub use scanner::{read_fraction, read_number};

@@ -196,6 +196,25 @@ pub(super) fn integer(digits: &str) -> Int {
 /// # Errors
 /// [`Error::Invalid`], stating what was found.
 pub fn read_number(text: &str) -> Result<Rational, Error> {
+    let (numerator, denominator) = read_fraction(text)?;
+    Ok(match (numerator.to_i64(), denominator.to_i64()) {
+        (Some(n), Some(1)) => Rational::from(n),
+        (Some(n), Some(d)) => Rational::from((n, d)),
+        _ => Rational::from((numerator.to_integer(), denominator.to_integer())),
+    })
+}
+
+/// Reads a number as [`read_number`] does: numerator and denominator, which is positive, perhaps with common factors.
+///
+/// # Errors
+/// [`Error::Invalid`], stating what was found.
+pub fn read_fraction(text: &str) -> Result<(Int, Int), Error> {
+    let digits = text.strip_prefix('-').unwrap_or(text);
+    if (1..=WORD_DIGITS).contains(&digits.len()) && digits.bytes().all(|byte| byte.is_ascii_digit()) {
+        // Most numbers are short and whole.
+        let number = integer(digits);
+        return Ok((if digits.len() < text.len() { number.neg() } else { number }, Int::one()));
+    }
     let fault = |fault: Fault| fault.in_text(text);
     let mut scanner = Scanner::new(text);
     let negative = scanner.peek() == b'-';
@@ -218,11 +237,5 @@ pub fn read_number(text: &str) -> Result<Rational, Error> {
         let found = if denominator.is_zero() { "a division by zero".to_owned() } else { scanner.found() };
         return Err(fault(scanner.fault(format!("found {found}, expected a number"))));
     }
-    if negative {
-        numerator = numerator.neg();
-    }
-    Ok(match (numerator.to_i64(), denominator.to_i64()) {
-        (Some(n), Some(d)) => Rational::from((n, d)),
-        _ => Rational::from((numerator.to_integer(), denominator.to_integer())),
-    })
+    Ok((if negative { numerator.neg() } else { numerator }, denominator))
 }

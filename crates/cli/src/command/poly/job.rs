@@ -11,10 +11,11 @@ use super::timing::{measure, peak_memory};
 use crate::command::exit::{Exit, Fault};
 use crate::command::output::print;
 use looproot::internal::error::Error;
-use looproot_algebra::determinant::modular;
+use looproot_algebra::determinant::of_polynomials;
 use looproot_algebra::int::Int;
+use looproot_algebra::polynomial::Polynomial;
 use looproot_algebra::ring::{Domain, Ring};
-use looproot_algebra::text::{Expression, Fraction, Names, read_number};
+use looproot_algebra::text::{Expression, Fraction, Names, read_fraction, read_number};
 use looproot_algebra::univariate::Univariate;
 use rug::Rational;
 use serde_json::Value;
@@ -68,8 +69,8 @@ enum Job<'j> {
 
 /// The data of a job as read.
 enum Input {
-    /// The coefficient matrices, lowest degree first.
-    Coefficients(Vec<Vec<Vec<Rational>>>),
+    /// The number of rows, the coefficients of the entries row by row, lowest degree first, and a denominator of the determinant.
+    Coefficients(usize, Vec<Vec<Int>>, Int),
     Matrix(Vec<Vec<Fraction>>),
     Polynomials(Vec<Fraction>),
     Univariate(Univariate<Rational>),
@@ -77,7 +78,6 @@ enum Input {
 
 enum Answer {
     Polynomial(Fraction),
-    Univariate(Univariate<Rational>),
     Count(usize),
 }
 
@@ -130,16 +130,12 @@ impl<'j> Job<'j> {
         };
         match self {
             Self::PolyDet(rows) => {
-                let degree = rows.iter().flatten().map(Vec::len).max().unwrap_or(0);
-                let mut matrices = vec![vec![vec![Rational::new(); rows.len()]; rows.len()]; degree];
-                for (i, row) in rows.iter().enumerate() {
-                    for (j, entry) in row.iter().enumerate() {
-                        for (matrix, number) in matrices.iter_mut().zip(entry) {
-                            matrix[i][j] = read_number(number)?;
-                        }
-                    }
+                let (mut entries, mut denominator) = (Vec::with_capacity(rows.len() * rows.len()), Int::one());
+                for row in rows {
+                    let own = cleared(row, &mut entries)?;
+                    denominator = denominator.mul(&own);
                 }
-                Ok(Input::Coefficients(matrices))
+                Ok(Input::Coefficients(rows.len(), entries, denominator))
             }
             Self::Det(variables, rows) => {
                 let mut names = Names::given(variables)?;
@@ -167,7 +163,11 @@ impl<'j> Job<'j> {
 
     fn solve(&self, input: Input) -> Outcome<Answer> {
         Ok(match (self, input) {
-            (_, Input::Coefficients(matrices)) => Answer::Univariate(modular(&matrices)),
+            (_, Input::Coefficients(size, entries, denominator)) => {
+                let determinant = Univariate::new(of_polynomials(size, entries));
+                let numerator = Polynomial::from_univariate(0, &determinant);
+                Answer::Polynomial(Fraction { numerator, denominator }.reduced())
+            }
             (_, Input::Matrix(rows)) => {
                 rows.iter().try_for_each(|row| check_degrees(row))?;
                 Answer::Polynomial(determinant::of_fractions(&rows))
@@ -207,7 +207,6 @@ impl Answer {
     fn terms(&self) -> usize {
         match self {
             Self::Polynomial(result) => result.numerator.len(),
-            Self::Univariate(result) => result.coefficients().iter().filter(|c| !c.is_zero()).count(),
             Self::Count(count) => *count,
         }
     }
@@ -221,7 +220,6 @@ impl Answer {
                 let value = result.numerator.evaluate(&primes).to_integer();
                 Rational::from((value, result.denominator.to_integer()))
             }
-            Self::Univariate(result) => result.eval(&Rational::from(2)),
             Self::Count(count) => Rational::from(*count),
         }
     }
@@ -240,6 +238,19 @@ fn common_divisor(f: &Fraction, g: &Fraction) -> Fraction {
     let (a, b) = (&f.denominator, &g.denominator);
     let denominator = a.mul(&b.div_exact(&a.gcd(b)));
     Fraction { numerator: f.numerator.gcd(&g.numerator), denominator }.reduced()
+}
+
+/// Reads a row of coefficient lists, appends them times the least common multiple of their denominators, and returns that.
+fn cleared(row: &[Vec<&str>], entries: &mut Vec<Vec<Int>>) -> Outcome<Int> {
+    let read = |entry: &Vec<&str>| entry.iter().map(|text| read_fraction(text)).collect::<Result<Vec<_>, _>>();
+    let fractions: Vec<Vec<(Int, Int)>> = row.iter().map(read).collect::<Result<_, _>>()?;
+    let multiple = |common: Int, (_, own): &(Int, Int)| {
+        if common == *own { common } else { common.mul(&own.div_exact(&common.gcd(own))) }
+    };
+    let common = fractions.iter().flatten().fold(Int::one(), multiple);
+    let scaled = |(n, d): (Int, Int)| if d == common { n } else { n.mul(&common.div_exact(&d)) };
+    entries.extend(fractions.into_iter().map(|entry| entry.into_iter().map(scaled).collect()));
+    Ok(common)
 }
 
 fn expand(text: &str, names: &mut Names) -> Outcome<Fraction> {
