@@ -9,6 +9,7 @@ mod grading;
 mod heap;
 mod image;
 mod kronecker;
+mod limbs;
 mod planes;
 mod power;
 mod product;

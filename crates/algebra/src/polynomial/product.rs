@@ -2,6 +2,7 @@
 
 use super::blocks::{self, Accumulator, Blocks, Grid, Triple};
 use super::kronecker::{Kronecker, Numbers};
+use super::limbs::{Factor, Sum};
 use super::planes::{Planes, Sums};
 use super::{Polynomial, Size};
 use crate::monomial::Packing;
@@ -10,8 +11,12 @@ use rug::Integer;
 
 /// Maximum number of products of terms that are sorted.
 const FEW: usize = 1024;
+/// The number of them from which on they are collected in a box if they fill it.
+const DENSE: usize = 128;
 /// Cells of a box: their sums stay in the first-level cache, or nearly so.
 pub(super) const CELLS: usize = 1 << 12;
+/// Nanoseconds of a product that need no other way than the box.
+const SHORT: f64 = 1e3;
 /// Sums below these fit an i64, and an i128.
 const HALF: u128 = 1 << 63;
 const WHOLE: u128 = 1 << 127;
@@ -27,11 +32,12 @@ fn to_large<R: Ring>(coefficients: &[R]) -> Option<Vec<Integer>> {
 }
 
 /// Returns the nanoseconds that a product of two terms takes, and adding it in its place: measured, on a processor of 3 GHz.
-fn pair_cost(bound: Option<u128>, a: &Numbers, b: &Numbers) -> f64 {
+fn pair_cost(bound: Option<u128>, short: bool, a: &Numbers, b: &Numbers) -> f64 {
     match bound {
         Some(..HALF) => 0.65,
         Some(..WHOLE) => 1.05,
         Some(_) => 1.8,
+        None if short => 9.0,
         None => 20.0 + 1.5 * (a.bits() / 64 + 1) as f64 * (b.bits() / 64 + 1) as f64,
     }
 }
@@ -76,10 +82,21 @@ impl<R: Ring> Polynomial<R> {
         if packing.words() == 1 && left.len() == 2 {
             return left.merged_product(right, packing, &a, &b);
         }
-        if packing.words() == 1 && left.len() * right.len() <= FEW {
+        if packing.words() == 1 && left.len() * right.len() <= FEW && !left.fills_box(right) {
             return left.sorted_product(right, packing, &a, &b);
         }
         left.collected_product(right, packing, &a, &b)
+    }
+
+    /// Returns whether coefficients are integers and many of the monomials that the degrees of the product allow occur in it.
+    fn fills_box(&self, other: &Self) -> bool {
+        let pairs = self.len() * other.len();
+        pairs >= DENSE && R::zero().to_wide().is_some() && {
+            let (own, others) = (self.degrees(), other.degrees());
+            let (long, short) = if own.len() < others.len() { (others, own) } else { (own, others) };
+            let degree = |(v, degree): (usize, &u32)| (degree + short.get(v).unwrap_or(&0)) as usize + 1;
+            long.iter().enumerate().map(degree).fold(1, usize::saturating_mul) <= 2 * pairs
+        }
     }
 
     /// Returns a packing with room for the product.
@@ -168,13 +185,15 @@ impl<R: Ring> Polynomial<R> {
         let pairs = self.len() as f64 * other.len() as f64;
         let large =
             if words.is_none() { to_large(&self.coefficients).zip(to_large(&other.coefficients)) } else { None };
+        let factors = |large: &[Integer]| large.iter().map(Factor::new).collect::<Option<Vec<Factor>>>();
+        let short = large.as_ref().and_then(|(a, b)| factors(a).zip(factors(b)));
         let numbers = match (&words, &large) {
             (Some((a, b)), _) => Some((Numbers::Words(a), Numbers::Words(b))),
             (None, Some((a, b))) => Some((Numbers::Large(a), Numbers::Large(b))),
             (None, None) => None,
         };
-        if let Some((a, b)) = &numbers {
-            let limit = pairs * pair_cost(bound, a, b);
+        let limit = |(a, b): &(Numbers, Numbers)| pairs * pair_cost(bound, short.is_some(), a, b);
+        if let Some(((a, b), limit)) = numbers.as_ref().map(|n| (n, limit(n))).filter(|(_, limit)| *limit > SHORT) {
             let (left, right) = ((left, a), (right, b));
             let substituted = Kronecker::new(packing, &degrees, left, right).filter(|k| k.cost() < limit);
             let limit = substituted.as_ref().map_or(limit, Kronecker::cost);
@@ -195,17 +214,20 @@ impl<R: Ring> Polynomial<R> {
         }
         let grid = Grid::new(packing, &degrees, CELLS.min(self.len().saturating_mul(other.len())));
         let mut coefficients = Vec::new();
-        let monomials = match (&words, bound) {
-            (Some((a, b)), Some(..HALF)) => collect(&grid, &degrees, (left, a), (right, b), &mut |n: i64| {
+        let monomials = match (&words, bound, &short) {
+            (Some((a, b)), Some(..HALF), _) => collect(&grid, &degrees, (left, a), (right, b), &mut |n: i64| {
                 coefficients.push(R::from_wide(n.into()));
             }),
-            (Some((a, b)), Some(..WHOLE)) => {
+            (Some((a, b)), Some(..WHOLE), _) => {
                 collect(&grid, &degrees, (left, a), (right, b), &mut |n: i128| coefficients.push(R::from_wide(n)))
             }
-            (Some((a, b)), _) => {
+            (Some((a, b)), ..) => {
                 collect(&grid, &degrees, (left, a), (right, b), &mut |n: Triple| coefficients.push(n.to_ring()))
             }
-            (None, _) => {
+            (None, _, Some((a, b))) => {
+                collect(&grid, &degrees, (left, a), (right, b), &mut |n: Sum| coefficients.push(n.to_ring()))
+            }
+            (None, ..) => {
                 let (a, b) = (&self.coefficients[..], &other.coefficients[..]);
                 collect(&grid, &degrees, (left, a), (right, b), &mut |sum: R| coefficients.push(sum))
             }
