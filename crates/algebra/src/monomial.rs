@@ -11,6 +11,8 @@ pub struct Packing {
     variables: usize,
     /// Width of a field, at most 32.
     bits: u32,
+    /// Fields in a word. Divisions by it are left out where all fields are in the first one, as they mostly are.
+    per_word: u32,
 }
 
 impl Packing {
@@ -24,7 +26,8 @@ impl Packing {
         // One bit for the guard. With few variables the fields fill a word, which spares repacking later.
         let needed = u32::BITS - largest.leading_zeros() + 1;
         let roomy = 64 / u32::try_from(variables.max(2)).unwrap_or(u32::MAX);
-        Self { variables, bits: needed.max(2).max(roomy.min(16)).min(32) }
+        let bits = needed.max(2).max(roomy.min(16)).min(32);
+        Self { variables, bits, per_word: 64 / bits }
     }
 
     /// Returns the number of variables.
@@ -41,13 +44,13 @@ impl Packing {
 
     /// Fields in a word.
     const fn per_word(&self) -> usize {
-        (64 / self.bits) as usize
+        self.per_word as usize
     }
 
     /// Words of a monomial, at least one.
     #[must_use]
     pub const fn words(&self) -> usize {
-        if self.variables == 0 { 1 } else { self.variables.div_ceil(self.per_word()) }
+        if self.variables <= self.per_word() { 1 } else { self.variables.div_ceil(self.per_word()) }
     }
 
     /// Returns the word of a variable's field, and the place of its lowest bit there.
@@ -55,6 +58,9 @@ impl Packing {
     #[expect(clippy::cast_possible_truncation, reason = "a word has at most 32 fields")]
     pub const fn place(&self, variable: usize) -> (usize, u32) {
         let per_word = self.per_word();
+        if variable < per_word {
+            return (0, 64 - self.bits * (variable as u32 + 1));
+        }
         (variable / per_word, 64 - self.bits * ((variable % per_word) as u32 + 1))
     }
 

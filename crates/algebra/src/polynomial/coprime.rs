@@ -71,7 +71,26 @@ impl Polynomial<Int> {
             let divisor = kept.then(|| common_divisor(image, other_image, &MODULUS))?;
             u32::try_from(divisor.len() - 1).ok()
         };
-        (0..count).map(bound).collect()
+        let mut bounds = Vec::with_capacity(count);
+        for variable in 0..count {
+            bounds.push(bound(variable)?);
+            let ends_in_number = |polynomial: &Self, degrees: &[u32]| {
+                let degree = of(degrees, variable);
+                degree > 0 && polynomial.leads_with_number(variable, degree)
+            };
+            if bounds[variable] == 0 && (ends_in_number(self, &own) || ends_in_number(other, &others)) {
+                // A common divisor free of the variable divides each coefficient of its powers, one of which is a number.
+                return Some(vec![0; count]);
+            }
+        }
+        Some(bounds)
+    }
+
+    /// Returns whether the coefficient of the highest power of a variable, which has this degree, is a number.
+    fn leads_with_number(&self, variable: usize, degree: u32) -> bool {
+        let mut highest = (0..self.len()).filter(|&term| self.exponent(term, variable) == degree);
+        let others = |term| (0..self.variables()).all(|other| other == variable || self.exponent(term, other) == 0);
+        highest.next().is_some_and(others) && highest.next().is_none()
     }
 
     /// Returns whether it is proved that no variable occurs in a common divisor; `false` says nothing.

@@ -71,7 +71,8 @@ impl Expression {
     /// # Errors
     /// If an exponent becomes too large, or the result would (by an estimate made before multiplying).
     pub fn expand(&self) -> Result<Fraction, Fault> {
-        let growth = self.0.growth(&[]);
+        // Plain terms have the numbers that were read.
+        let growth = if matches!(self.0, Node::Terms(..)) { 0 } else { self.0.growth(&[]) };
         if growth > LARGEST_NUMBER {
             let digits = growth as f64 * std::f64::consts::LOG10_2;
             let message =

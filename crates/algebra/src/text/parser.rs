@@ -162,8 +162,8 @@ impl<'t, 'n> Parser<'t, 'n> {
         let byte = |at: usize| bytes.get(at).copied().unwrap_or(0);
         let number = |start: usize| {
             let (mut value, mut at) = (0_i64, start);
-            while byte(at).is_ascii_digit() {
-                value = value.wrapping_mul(10).wrapping_add(i64::from(byte(at) - b'0'));
+            while let Some(digit) = bytes.get(at).map(|byte| byte.wrapping_sub(b'0')).filter(|digit| *digit < 10) {
+                value = value.wrapping_mul(10).wrapping_add(i64::from(digit));
                 at += 1;
             }
             (value, at)
@@ -178,8 +178,8 @@ impl<'t, 'n> Parser<'t, 'n> {
         at += usize::from(more && at > 0);
         while more {
             let (mut name, start) = (0, at);
-            while byte(at).is_ascii_alphanumeric() || byte(at) == b'_' {
-                name = name << 8 | u64::from(byte(at));
+            while let Some(letter) = bytes.get(at).filter(|byte| byte.is_ascii_alphanumeric() || **byte == b'_') {
+                name = name << 8 | u64::from(*letter);
                 at += 1;
             }
             if at == start || at - start > 8 || byte(at) == b'\'' {
@@ -210,7 +210,7 @@ impl<'t, 'n> Parser<'t, 'n> {
         if negative {
             coefficient = coefficient.neg();
         }
-        terms.finish_term(coefficient, Int::one());
+        terms.finish_whole_term(coefficient);
         true
     }
 

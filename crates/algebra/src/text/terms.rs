@@ -89,11 +89,17 @@ impl Terms {
     /// Ends the term that is being read.
     #[inline]
     pub(super) fn finish_term(&mut self, numerator: Int, denominator: Int) {
+        if denominator != Int::one() && !numerator.is_zero() {
+            self.denominators.push((self.numerators.len(), denominator));
+        }
+        self.finish_whole_term(numerator);
+    }
+
+    /// Ends the term that is being read, its coefficient being an integer or having its denominator noted already.
+    #[inline]
+    pub(super) fn finish_whole_term(&mut self, numerator: Int) {
         if numerator.is_zero() {
             return self.drop_term();
-        }
-        if denominator != Int::one() {
-            self.denominators.push((self.numerators.len(), denominator));
         }
         self.numerators.push(numerator);
         self.ends.push(self.powers.len());
