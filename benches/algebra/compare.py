@@ -58,11 +58,15 @@ def rows_of_integers(matrix):
 
 # ---------------------------------------------------------------------------------------------------------- FLINT
 
-def flint_determinant(job):
-    """The faster of FLINT's two determinants of matrices over Z[x], called in the library that python-flint brings."""
+def flint_library():
     import flint
     folder = Path(flint.__file__).parent.parent / "python_flint.libs"
-    library = ctypes.CDLL(glob.glob(str(folder / "libflint-*.so*"))[0])
+    return ctypes.CDLL(glob.glob(str(folder / "libflint-*.so*"))[0])
+
+
+def flint_determinant(job):
+    """The faster of FLINT's two determinants of matrices over Z[x], called in the library that python-flint brings."""
+    library = flint_library()
     rows, scale = rows_of_integers(job["M"])
     size = ctypes.c_long(len(rows))
     matrix, result = (ctypes.c_long * 16)(), (ctypes.c_long * 4)()
@@ -82,9 +86,40 @@ def flint_determinant(job):
     tell(seconds, sum(c != 0 for c in coefficients), f"{value}/{scale}")
 
 
+def flint_determinant_of_symbols(job):
+    """The determinant of a matrix over Z[x, y, ...] by FLINT's generic rings."""
+    library, size = flint_library(), len(job["M"])
+    context, matrix = (ctypes.c_long * 64)(), (ctypes.c_long * 16)()
+    library.gr_ctx_init_fmpz_mpoly(context, ctypes.c_long(len(job["vars"])), 0)
+    names = (ctypes.c_char_p * len(job["vars"]))(*[v.encode() for v in job["vars"]])
+    library.gr_ctx_set_gen_names(context, names)
+    library.gr_mat_init(matrix, ctypes.c_long(size), ctypes.c_long(size), context)
+    library.gr_mat_entry_ptr.restype = library.gr_heap_init.restype = ctypes.c_void_p
+    for i, row in enumerate(job["M"]):
+        for j, entry in enumerate(row):
+            place = library.gr_mat_entry_ptr(matrix, ctypes.c_long(i), ctypes.c_long(j), context)
+            if library.gr_set_str(ctypes.c_void_p(place), entry.encode(), context):
+                sys.exit(f"FLINT does not read {entry}")
+    result = ctypes.c_void_p(library.gr_heap_init(context))
+    seconds = []
+    for name in ["gr_mat_det", "gr_mat_det_cofactor", "gr_mat_det_berkowitz", "gr_mat_det_fflu"]:
+        if name == "gr_mat_det_cofactor" and size > 8:
+            continue
+        status, s = timed(lambda: getattr(library, name)(result, matrix, context))
+        if status == 0:
+            seconds.append(s)
+    text = ctypes.c_char_p()
+    library.gr_get_str(ctypes.byref(text), result, context)
+    terms = re.findall(r"[+-]?[^+-]+", text.value.decode().replace(" ", ""))
+    values = dict(zip(job["vars"], POINTS))
+    tell(min(seconds), len(terms), sum(evaluated(term, values) for term in terms))
+
+
 def flint_job(job):
     import flint
     kind = job["kind"]
+    if kind == "mpolydet":
+        return flint_determinant_of_symbols(job)
     if kind == "polydet":
         return flint_determinant(job)
     if kind == "roots":
@@ -134,6 +169,9 @@ def symbolica_job(job):
     if kind in ("mul", "res", "gcd"):
         f, g = polynomial(job["f"]), polynomial(job["g"])
         run = {"mul": lambda: f * g, "res": lambda: f.resultant(g, E(job["elim"])), "gcd": lambda: f.gcd(g)}[kind]
+    elif kind == "mpolydet":
+        matrix = Matrix.from_nested([[E(entry).to_rational_polynomial() for entry in row] for row in job["M"]])
+        run = matrix.det
     else:
         def run():
             p = E(job["expr"]).to_polynomial(vars=names)
@@ -141,6 +179,7 @@ def symbolica_job(job):
                 p = p.quot_rem(polynomial(job["div"]))[0]
             return p
     p, seconds = timed(run, 6 if kind == "mul" else 1.5)
+    p = p.numerator() if kind == "mpolydet" else p
     value = ""
     # Products are long, and a greatest common divisor is known up to a rational factor here.
     if kind not in ("mul", "gcd"):
@@ -161,6 +200,9 @@ def pari_job(job):
         entry = lambda c: "+".join(f"({a})*x^{k}" for k, a in enumerate(c))
         matrix = "[" + ";".join(",".join(entry(c) for c in row) for row in job["M"]) + "]"
         given, run, value = f"given={matrix};", "matdet(given)", "subst(answer,x,2)"
+    elif kind == "mpolydet":
+        matrix = "[" + ";".join(",".join(row) for row in job["M"]) + "]"
+        given, run, value = f"given={matrix};", "matdet(given)", "answer"
     elif kind == "roots":
         text = job.get("poly") or "+".join(f"({c})*x^{k}" for k, c in enumerate(job["coefficients"]))
         given, run, value = f"first={text};", "polrootsreal(first)", "#answer"
