@@ -155,3 +155,28 @@ impl<R: Ring> Eliminant<R> {
         Some(common_divisor(&at(&self.f)?, &at(&self.g)?, tolerance))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Degrees in any order, so that an exchange turns the sign or not.
+    #[test]
+    fn resultants_by_words_are_those_by_polynomials() {
+        let polynomial = |degree: u32, seed: u32| {
+            let c = move |i: u32, j: u32| Int::from(i64::from(seed * (7 * i * i + 3 * j + i * j + 1) % 23) - 11);
+            Polynomial::from_terms((0..=degree).flat_map(|i| (0..=2).map(move |j| (vec![j, i], c(i, j)))))
+        };
+        for (m, n) in [(3, 2), (2, 3), (3, 3), (1, 4), (3, 5), (4, 3), (5, 5), (6, 3)] {
+            let (f, g) = (polynomial(m, 17), polynomial(n, 29));
+            let found = by_words(&f, &g, 1, f64::INFINITY).unwrap();
+            assert!(!found.is_zero());
+            assert_eq!(found, eliminate(&f, &g, 1).resultant);
+            assert_eq!(found, resultant(&f, &g, 1));
+        }
+        let f = polynomial(3, 17);
+        assert!(by_words(&f, &polynomial(7, 29), 1, f64::INFINITY).is_none());
+        assert!(by_words(&f, &f.add(&Polynomial::variable(2)), 1, f64::INFINITY).is_none());
+        assert!(by_words(&f, &f, 1, f64::INFINITY).unwrap().is_zero());
+    }
+}

@@ -208,6 +208,15 @@ pub fn read_number(text: &str) -> Result<Rational, Error> {
 ///
 /// # Errors
 /// [`Error::Invalid`], stating what was found.
+///
+/// # Example
+/// ```
+/// use looproot_algebra::{int::Int, text::read_fraction};
+///
+/// assert_eq!(read_fraction("-22/7").unwrap(), (Int::from(-22), Int::from(7)));
+/// assert_eq!(read_fraction("-12").unwrap(), (Int::from(-12), Int::from(1)));
+/// assert!(read_fraction("-").is_err() && read_fraction("--1").is_err());
+/// ```
 pub fn read_fraction(text: &str) -> Result<(Int, Int), Error> {
     let digits = text.strip_prefix('-').unwrap_or(text);
     if (1..=WORD_DIGITS).contains(&digits.len()) && digits.bytes().all(|byte| byte.is_ascii_digit()) {
