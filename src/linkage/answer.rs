@@ -3,6 +3,7 @@
 use super::assembly::{Asked, Assemblies, Family, FamilyKind, Route, Solution, assemblies, assemblies_within};
 use super::isotropic::{Value, middle};
 use super::state::{Number, State, number};
+use crate::algebra::drawn;
 use crate::algebra::ring::Ring;
 use crate::algebra::sort;
 use crate::error::Result;
@@ -97,7 +98,7 @@ pub fn solve_asked(linkage: &Linkage, given: &[Given], accuracy: Accuracy, asked
     let start = Instant::now();
     // What discs decide holds for the angles themselves; where they leave a doubt, or ends coincide, the rounded ones are taken.
     let within = if accuracy == Accuracy::Enclosed { Some(assemblies_within(linkage, given, asked)?) } else { None };
-    let within = within.filter(|found| found.doubt.is_none() && found.curves.is_empty());
+    let within = within.filter(|found| found.doubt.is_none() && found.curves.is_empty() && !found.is_probable);
     let (found, exact) = match within {
         Some(within) if !within.only_real => (within, true),
         within => {
@@ -211,10 +212,20 @@ fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily]
     let counts = counts.join(" x ");
     let complete = found.doubt.is_none() && found.curves.is_empty();
     let moving: Vec<&Family> = found.curves.iter().filter(|family| family.state.real).collect();
-    let rounded = Proof::Proved.of_rounded(!exact);
+    let rounded = if found.is_probable {
+        Proof::Probable { error: drawn::PROBABILITY_OF_ERROR, seed: drawn::seed() }
+    } else {
+        Proof::Proved.of_rounded(!exact)
+    };
     let has = |wanted: fn(&Route) -> bool| found.groups.iter().any(|group| wanted(&group.route));
-    let because = because(&has);
-    let code = if found.only_real {
+    let mut because = because(&has);
+    if found.is_probable {
+        because += ", where numbers are not rational as many as members with numbers that are drawn have roots";
+    }
+    let has_boxes = has(|route| matches!(route, Route::Boxes(_)));
+    let code = if found.is_probable {
+        Code::CountMet
+    } else if has_boxes {
         Code::BoxesExhausted
     } else if has(|route| !matches!(route, Route::Quadratic)) {
         Code::ExactRootsMatched
@@ -247,8 +258,8 @@ fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily]
         } else {
             format!("{real} real assemblies of groups of {counts}")
         };
-        let reason =
-            format!("{list}: every box of angles is proved to hold none but these; complex ones were not looked for");
+        let why = if has_boxes { "every box of angles is proved to hold none but these" } else { &because };
+        let reason = format!("{list}: {why}; complex ones were not looked for");
         (status, rounded, code, reason)
     } else if real == 0 {
         let far = match found.gap {

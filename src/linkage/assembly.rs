@@ -5,13 +5,15 @@ use super::equations::{Closure, Equations};
 use super::exact_group::{Decided, decided};
 use super::fibres::by_fibres;
 use super::geared_groups::geared_groups;
-use super::gears::{geared, is_wheel, teeth};
+use super::gears::{geared, is_train, teeth};
 use super::general::{general, least_rows};
 use super::groups::{Group, Groups, MOST_CLUSTERS, MOST_IN_BOXES, Merged};
 use super::isotropic::{Isotropic, Value};
 use super::krawczyk::{Proved, conjugate};
+use super::members::are_all;
 use super::quadratic::{Root, Solved, one_cycle};
 use super::real_motion::Moving;
+use super::real_system::is_real;
 use super::state::{Number, Place, State, place_of, place_within};
 use crate::algebra::ring::Ring;
 use crate::error::{Error, Result};
@@ -114,6 +116,8 @@ pub struct Assemblies {
     pub doubt: Option<String>,
     /// Whether only real assemblies were looked for.
     pub only_real: bool,
+    /// Whether the number of assemblies of a group is that of members that were drawn.
+    pub is_probable: bool,
     /// The least distance, metres, by which a dyad of a real branch does not close; none where all close.
     pub gap: Option<f64>,
 }
@@ -305,6 +309,7 @@ fn attempt(linkage: &Linkage, start: &State, groups: &Groups, highest: usize, as
         groups: Vec::new(),
         doubt: None,
         only_real: false,
+        is_probable: false,
         gap: None,
     };
     let mut branches = vec![start];
@@ -326,8 +331,8 @@ fn attempt(linkage: &Linkage, start: &State, groups: &Groups, highest: usize, as
             if group.gears.is_empty() {
                 branch(at, &mut solution, &mut next, &mut found, asked);
             } else {
-                let is_wheel = is_wheel(&closure.equations, group);
-                solution.route = if is_wheel { Route::Wheel } else { Route::Gears(group.gears.len()) };
+                solution.route =
+                    if is_train(&closure.equations) { Route::Wheel } else { Route::Gears(group.gears.len()) };
                 let solved = geared(linkage, &closure, group, state);
                 add(solved, at, &mut solution, &mut next, &mut found);
             }
@@ -353,7 +358,7 @@ struct Branch<'a> {
 
 /// Solves a group in one branch.
 fn branch(at: Branch<'_>, solution: &mut Solution, next: &mut Vec<State>, found: &mut Assemblies, asked: Asked<'_>) {
-    let Branch { closure, group, state, .. } = at;
+    let Branch { linkage, closure, group, state } = at;
     let equations = &closure.equations;
     if equations.loops() == 1 {
         add(one_cycle(equations, &state.top), at, solution, next, found);
@@ -363,8 +368,20 @@ fn branch(at: Branch<'_>, solution: &mut Solution, next: &mut Vec<State>, found:
         by_boxes(at, solution, next, found, asked);
         return;
     }
+    let is_exact = equations.exact().is_some_and(|exact| is_real(&exact));
+    if !is_exact && !state.real {
+        // An assembly of the whole that is real is so in its parts. The real form of a pencil is one of real data.
+        found.only_real = true;
+        return;
+    }
     let general = general(equations);
     solution.route = Route::Pencil(general.size);
+    if !is_exact && are_all(linkage, group, state, equations, &general) {
+        found.is_probable = true;
+        solution.count = solution.count.max(general.solutions.len());
+        add_proved(&general.solutions, at, next, found);
+        return;
+    }
     let proved: usize = general.solutions.len();
     solution.count = solution.count.max(general.most.unwrap_or(proved));
     let is_complete = general.most == Some(proved);
@@ -388,7 +405,13 @@ fn branch(at: Branch<'_>, solution: &mut Solution, next: &mut Vec<State>, found:
         let reason = general.doubt.unwrap_or_else(|| "the number of assemblies of a group is not known".to_owned());
         found.doubt.get_or_insert(format!("{reason} (group of {} bodies)", group.clusters.len()));
     }
-    for proved in &general.solutions {
+    add_proved(&general.solutions, at, next, found);
+}
+
+/// Adds the assemblies of a group in one branch that are proved one by one.
+fn add_proved(solutions: &[Proved], at: Branch<'_>, next: &mut Vec<State>, found: &mut Assemblies) {
+    let Branch { closure, state, .. } = at;
+    for proved in solutions {
         let Some(real) = (if state.real { proved.real } else { Some(false) }) else {
             found.doubt.get_or_insert_with(|| UNDECIDED.to_owned());
             continue;

@@ -7,6 +7,7 @@
 use super::answer::LinkageMode;
 use super::assembly::groups_of;
 use super::equations::Closure;
+use super::gears::driven;
 use super::isotropic::Isotropic;
 use super::laurent::Laurent;
 use super::state::{State, place_of, shifted, turned};
@@ -86,10 +87,12 @@ impl Dyads {
         state.glue(a, b, &place);
         let mut list: Vec<Dyad> = Vec::new();
         for group in &groups.list {
-            if !group.gears.is_empty() {
-                return None;
-            }
             let closure = Closure::new(linkage, group, &state)?;
+            if !group.gears.is_empty() {
+                let turns = driven(linkage, &closure, group, &state)?;
+                state = closure.assembled(&state, &turns, &[]);
+                continue;
+            }
             let solved = Solved::of(&closure, list.len() + 1)?;
             if let Some((equation, rest, turning)) = solved.equation {
                 let marked = |class: usize| {

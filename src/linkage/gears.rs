@@ -2,9 +2,9 @@
 //!
 //! The angle of the second gear is `ratio = p/q` times that of the first, both against the carrier, and a phase. With rotations
 //! `a`, `b`, `c` of the first, the second and the carrier this is `b^q c^(p-q) = phase^q a^p`, an equation between monomials: as p
-//! and q are coprime, its solutions are exactly the positions that the gears reach when they turn from the phase. Together with the
-//! cycles of the group it is a system over the rationals in the cosines x and sines y of all classes, `x^2 + y^2 = 1`, and in the
-//! slides: its Gröbner basis counts the assemblies.
+//! and q are coprime, its solutions are exactly the positions that the gears reach when they turn from the phase. Monomials in few
+//! unknown rotations fulfil the equations of all gears. Together with the cycles of the group these are a system over the rationals in
+//! the cosines x and sines y of the unknown rotations, `x^2 + y^2 = 1`, and in the slides: its Gröbner basis counts the assemblies.
 
 use super::equations::{Closure, Equations};
 use super::exact_group::solutions;
@@ -12,9 +12,8 @@ use super::groups::Group;
 use super::isotropic::{Isotropic, Value};
 use super::points::EFFORT;
 use super::quadratic::{Root, Solved};
-use super::real_system::{Form, RealSystem, circles, constant, cycle_forms, turned, unknowns, way};
-use super::state::{Number, State, number};
-use crate::algebra::disc::Disc;
+use super::real_system::{Form, RealSystem, circles, constant, is_real, turned, way};
+use super::state::{Half, Number, State, number};
 use crate::algebra::groebner::{Basis, MOST_VARIABLES};
 use crate::algebra::ring::Ring;
 use crate::error::{Error, Result};
@@ -24,11 +23,16 @@ use rug::Rational;
 /// Largest sum of the numbers of teeth in lowest terms: monomials of a basis have degrees up to 127.
 pub const MOST_TEETH: i32 = 40;
 
+/// Exponents beyond which products of rotations are not formed: far above those of any ratios that are solved.
+const LARGE: i32 = 1 << 12;
+/// Largest sum of exponents of a product of rotations: with a slide the degree of an equation is at most 127.
+const MOST_DEGREE: i32 = 60;
+
 /// A pair of gears between classes: `sum of exponents[k] times the angle of class k` is the angle of `factor`.
 #[derive(Clone, Debug)]
-struct Mesh {
+struct Mesh<R> {
     exponents: Vec<i32>,
-    factor: Number,
+    factor: Isotropic<R>,
 }
 
 /// Returns the numerator and the denominator of a ratio of gears.
@@ -44,13 +48,13 @@ pub fn teeth(ratio: &Rational) -> Result<(i32, i32)> {
     })
 }
 
-fn power(base: &Number, exponent: i32) -> Number {
+fn power<R: Half>(base: &Isotropic<R>, exponent: i32) -> Isotropic<R> {
     let base = if exponent < 0 { base.mirrored() } else { base.clone() };
-    (0..exponent.unsigned_abs()).fold(Number::one(), |product, _| product.mul(&base))
+    (0..exponent.unsigned_abs()).fold(Isotropic::one(), |product, _| product.mul(&base))
 }
 
 /// The pair of gears as an equation between the rotations of the classes.
-fn mesh(linkage: &Linkage, closure: &Closure, state: &State, gear: usize) -> Option<Mesh> {
+fn mesh<R: Half>(linkage: &Linkage, closure: &Closure<R>, state: &State<R>, gear: usize) -> Option<Mesh<R>> {
     let joint = &linkage.joints[gear];
     let Pair::Gear { carrier, ratio, phase } = &joint.pair else { return None };
     let (p, q) = teeth(ratio).ok()?;
@@ -66,29 +70,264 @@ fn mesh(linkage: &Linkage, closure: &Closure, state: &State, gear: usize) -> Opt
     Some(Mesh { exponents, factor })
 }
 
+/// A rotation as a number times powers of unknown rotations.
+#[derive(Clone)]
+struct Power<R = Value> {
+    factor: Isotropic<R>,
+    exponents: Vec<i32>,
+}
+
+impl<R: Half> Power<R> {
+    fn one(unknowns: usize) -> Self {
+        Self { factor: Isotropic::one(), exponents: vec![0; unknowns] }
+    }
+
+    /// This times a power of another one.
+    fn times(mut self, other: &Self, exponent: i32) -> Self {
+        if exponent != 0 {
+            self.factor = self.factor.mul(&power(&other.factor, exponent));
+            self.exponents.iter_mut().zip(&other.exponents).for_each(|(own, x)| *own += x * exponent);
+        }
+        self
+    }
+
+    fn degree(&self) -> i32 {
+        self.exponents.iter().map(|x| x.abs()).sum()
+    }
+}
+
+impl Power {
+    fn form(&self) -> Option<Form> {
+        let half = |value: &Value| value.exact.as_ref()?.to_gaussian();
+        let factor = half(&self.factor.z)?;
+        // Of a complex assembly the second half is another number.
+        if half(&self.factor.w)? != Isotropic::of(&factor).w {
+            return None;
+        }
+        Some(self.exponents.iter().enumerate().fold(constant(&factor), |form, (k, x)| form.mul(&turned(k + 1, *x))))
+    }
+}
+
+/// The rotations of a group by as few unknown ones as pairs of gears leave.
+///
+/// The exponents of the meshes are an integer matrix. Changes of its columns that have integer inverses are changes of the unknown
+/// rotations which lose none and add none. They make the matrix triangular, and where a row ends in 1 its mesh gives a rotation.
+struct Torus<R = Value> {
+    /// The rotation of every class.
+    turns: Vec<Power<R>>,
+    /// What remains of the meshes, each of which is 1: where they determine the unknown rotations, the k-th ends in a power of the k-th.
+    rest: Vec<Power<R>>,
+    unknowns: usize,
+}
+
+impl<R: Half> Torus<R> {
+    /// `None` where exponents become too large.
+    fn of(meshes: &[Mesh<R>], classes: usize) -> Option<Self> {
+        let size = classes - 1;
+        let rows: Vec<Vec<i32>> = meshes.iter().map(|mesh| mesh.exponents[1..].to_vec()).collect();
+        // The columns of the meshes above those of the rotations of the classes.
+        let unit = |k: usize| (0..size).map(move |j| i32::from(j == k));
+        let mut columns: Vec<Vec<i32>> =
+            (0..size).map(|k| rows.iter().map(|row| row[k]).chain(unit(k)).collect()).collect();
+        let subtract = |columns: &mut [Vec<i32>], from: usize, by: usize, times: i32| -> Option<()> {
+            for place in 0..rows.len() + size {
+                let product = columns[by][place].checked_mul(times)?;
+                let left = columns[from][place].checked_sub(product)?;
+                columns[from][place] = Some(left).filter(|x| x.abs() < LARGE)?;
+            }
+            Some(())
+        };
+        // The column in which each row ends, if it is not one of an earlier row.
+        let (mut ends, mut next) = (Vec::new(), 0);
+        for row in 0..rows.len() {
+            while let Some(least) =
+                (next..size).filter(|k| columns[*k][row] != 0).min_by_key(|k| columns[*k][row].abs())
+            {
+                columns.swap(next, least);
+                for other in next + 1..size {
+                    let times = columns[other][row] / columns[next][row];
+                    subtract(&mut columns, other, next, times)?;
+                }
+                if (next + 1..size).all(|k| columns[k][row] == 0) {
+                    break;
+                }
+            }
+            let is_end = next < size && columns[next][row] != 0;
+            ends.push(is_end.then_some(next));
+            next += usize::from(is_end);
+        }
+        shorten(&mut columns, next, rows.len(), subtract)?;
+        let solved = |column: usize| {
+            let row = ends.iter().position(|end| *end == Some(column))?;
+            (columns[column][row].abs() == 1).then_some(row)
+        };
+        let open: Vec<usize> = (0..size).filter(|column| solved(*column).is_none()).collect();
+        let mut parts: Vec<Power<R>> = Vec::new();
+        for column in 0..size {
+            let mut own = Power::one(open.len());
+            if let Some(row) = solved(column) {
+                own.factor = meshes[row].factor.clone();
+                own = parts.iter().zip(&columns).fold(own, |own, (part, column)| own.times(part, -column[row]));
+                own = Power::one(open.len()).times(&own, columns[column][row]);
+            } else if let Some(place) = open.iter().position(|own| *own == column) {
+                own.exponents[place] = 1;
+            }
+            parts.push(own);
+        }
+        let product =
+            |at: usize| parts.iter().zip(&columns).fold(Power::one(open.len()), |own, (p, c)| own.times(p, c[at]));
+        let turns = (0..size).map(|class| product(rows.len() + class));
+        let is_left = |row: &usize| ends[*row].is_none_or(|column| solved(column).is_none());
+        let mut left: Vec<usize> = (0..rows.len()).filter(is_left).collect();
+        left.sort_by_key(|row| ends[*row].unwrap_or(size));
+        let rest = left.into_iter().map(|row| {
+            let own = product(row);
+            Power { factor: own.factor.mul(&meshes[row].factor.mirrored()), exponents: own.exponents }
+        });
+        let torus = Self {
+            turns: std::iter::once(Power::one(open.len())).chain(turns).collect(),
+            rest: rest.collect(),
+            unknowns: open.len(),
+        };
+        torus.turns.iter().chain(&torus.rest).all(|one| one.degree() <= MOST_DEGREE).then_some(torus)
+    }
+}
+
+impl Torus {
+    /// The rotations of all classes where meshes alone determine them; `None` where they do not, or where a power is not kept from 0 by its
+    /// disc.
+    fn roots(&self) -> Option<Vec<Root>> {
+        let mut found: Vec<Vec<Number>> = vec![Vec::new()];
+        if self.rest.len() != self.unknowns {
+            return None;
+        }
+        for (k, rest) in self.rest.iter().enumerate() {
+            let end = rest.exponents[k];
+            if end == 0 || rest.exponents[k + 1..].iter().any(|x| *x != 0) {
+                return None;
+            }
+            let mut next = Vec::new();
+            for known in found {
+                let value = at(rest, &known);
+                let value = if end > 0 { value.mirrored() } else { value };
+                for z in value.z.disc.roots(end.unsigned_abs())? {
+                    let turn = Isotropic { w: Value::within(z.inverse()?), z: Value::within(z) };
+                    next.push(known.iter().cloned().chain([turn]).collect());
+                }
+            }
+            found = next;
+        }
+        let root = |values: Vec<Number>| Root {
+            turns: self.turns.iter().map(|turn| at(turn, &values)).collect(),
+            shifts: Vec::new(),
+            multiplicity: 1,
+        };
+        Some(found.into_iter().map(root).collect())
+    }
+
+    /// The polynomials that vanish: both parts of every cycle and of what remains of the meshes, and the circles of the unknown rotations;
+    /// `None` for numbers that are not rational.
+    fn system(&self, cycles: &Equations<Isotropic<Gaussian>>) -> Option<RealSystem> {
+        let turns: Vec<Form> = self.turns.iter().map(Power::form).collect::<Option<_>>()?;
+        let ways: Vec<Form> = (0..cycles.slides.len()).map(|slide| way(self.unknowns + 1, slide)).collect();
+        let mut list = Vec::new();
+        for (k, cycle) in cycles.cycles.iter().enumerate() {
+            let links = cycle.iter().zip(&turns).map(|(c, turn)| constant(&c.z).mul(turn));
+            let slides = cycles.slides.iter().zip(&ways);
+            let slides = slides.map(|(one, way)| constant(&one.coefficients[k].z).mul(&turns[one.class]).mul(way));
+            let sum = links.chain(slides).fold(Form::zero(), |sum, term| sum.add(&term));
+            list.extend([sum.re, sum.im]);
+        }
+        for rest in &self.rest {
+            let side = |sign: i32| {
+                let exponents = rest.exponents.iter().map(|x| (x * sign).max(0)).collect();
+                Power { factor: if sign > 0 { rest.factor.clone() } else { Number::one() }, exponents }.form()
+            };
+            let difference = side(1)?.sub(&side(-1)?);
+            list.extend([difference.re, difference.im]);
+        }
+        list.extend(circles(self.unknowns + 1));
+        list.retain(|equation| !equation.is_zero());
+        let shifts = ways.into_iter().map(|way| way.re).collect();
+        Some(RealSystem {
+            unknowns: 2 * self.unknowns + cycles.slides.len(),
+            turns,
+            shifts,
+            equations: list,
+            spinning: Vec::new(),
+        })
+    }
+}
+
+/// A product of powers at values of the first unknown ones.
+fn at(product: &Power, values: &[Number]) -> Number {
+    let terms = product.exponents.iter().zip(values);
+    terms.fold(product.factor.clone(), |sum, (x, value)| sum.mul(&power(value, *x)))
+}
+
+/// Takes multiples of the columns from `first` on, which no mesh has, from others where that makes them shorter.
+fn shorten(
+    columns: &mut [Vec<i32>],
+    first: usize,
+    from: usize,
+    subtract: impl Fn(&mut [Vec<i32>], usize, usize, i32) -> Option<()>,
+) -> Option<()> {
+    let dot =
+        |a: &[i32], b: &[i32]| a.iter().zip(b).skip(from).map(|(x, y)| i64::from(*x) * i64::from(*y)).sum::<i64>();
+    loop {
+        let mut is_shorter = false;
+        for (one, by) in (0..columns.len()).flat_map(|one| (first..columns.len()).map(move |by| (one, by))) {
+            let (product, square) = (dot(&columns[one], &columns[by]), dot(&columns[by], &columns[by]));
+            // Rounded to the nearest, halves to zero.
+            let times = (2 * product.abs() + square - 1) / (2 * square) * product.signum();
+            if one != by && times != 0 {
+                subtract(columns, one, by, i32::try_from(times).ok()?)?;
+                is_shorter = true;
+            }
+        }
+        if !is_shorter {
+            return Some(());
+        }
+    }
+}
+
+fn torus<R: Half>(linkage: &Linkage, closure: &Closure<R>, group: &Group, state: &State<R>) -> Option<Torus<R>> {
+    let meshes = group.gears.iter().map(|gear| mesh(linkage, closure, state, *gear)).collect::<Option<Vec<_>>>()?;
+    Torus::of(&meshes, closure.equations.classes)
+}
+
+/// The rotations of all classes of a train of gears in which each wheel turns as what drives it says, without a root; `None` of others.
+#[must_use]
+pub fn driven<R: Half>(
+    linkage: &Linkage,
+    closure: &Closure<R>,
+    group: &Group,
+    state: &State<R>,
+) -> Option<Vec<Isotropic<R>>> {
+    let torus = torus(linkage, closure, group, state).filter(|torus| torus.unknowns == 0 && torus.rest.is_empty())?;
+    is_train(&closure.equations).then(|| torus.turns.into_iter().map(|turn| turn.factor).collect())
+}
+
 /// Solves a group with gears.
 #[must_use]
 pub fn geared(linkage: &Linkage, closure: &Closure, group: &Group, state: &State) -> Solved {
     let equations = &closure.equations;
-    let meshes: Option<Vec<Mesh>> = group.gears.iter().map(|gear| mesh(linkage, closure, state, *gear)).collect();
-    let Some(meshes) = meshes else { return Solved::Undecided("gears whose bodies are not of one group".to_owned()) };
-    let only = if is_wheel(equations, group) { meshes.first() } else { None };
-    if let Some(turn) = only.and_then(wheel) {
-        return Solved::Roots(vec![Root { turns: vec![Number::one(), turn], shifts: Vec::new(), multiplicity: 1 }]);
+    if let Some(turns) = driven(linkage, closure, group, state) {
+        return Solved::Roots(vec![Root { turns, shifts: Vec::new(), multiplicity: 1 }]);
     }
-    let exact = |n: &Number| n.z.exact.as_ref()?.to_gaussian();
-    let factors: Option<Vec<Gaussian>> = meshes.iter().map(|mesh| exact(&mesh.factor)).collect();
-    let (Some(cycles), Some(factors)) = (equations.exact(), factors) else {
+    let Some(torus) = torus(linkage, closure, group, state) else {
+        return Solved::Undecided("the ratios of a group with gears lead to powers that are too high".to_owned());
+    };
+    let Some(system) = equations.exact().filter(is_real).and_then(|cycles| torus.system(&cycles)) else {
         let undecided =
             || Solved::Undecided("a group with gears stands on an assembly whose numbers are not rational".to_owned());
-        return only.and_then(wheel_by_roots).map_or_else(undecided, Solved::Roots);
+        let roots = Some(&torus).filter(|_| is_train(equations)).and_then(Torus::roots);
+        return roots.map_or_else(undecided, Solved::Roots);
     };
-    let unknowns = unknowns(equations);
-    if unknowns > MOST_VARIABLES {
+    if system.unknowns > MOST_VARIABLES {
         return Solved::Undecided(format!("a group with gears has more than {MOST_VARIABLES} unknowns"));
     }
-    let system = system(&cycles, &meshes, &factors);
-    let Some(basis) = Basis::of(unknowns, &system.equations, EFFORT) else {
+    let Some(basis) = Basis::of(system.unknowns, &system.equations, EFFORT) else {
         return Solved::Undecided("the Gröbner basis of a group with gears takes more work than is allowed".to_owned());
     };
     match basis.dimension() {
@@ -103,51 +342,8 @@ pub fn geared(linkage: &Linkage, closure: &Closure, group: &Group, state: &State
     }
 }
 
-/// Whether a group is a wheel that turns about a joint of the rest.
+/// Whether a group consists of wheels that turn about joints of the rest and of one another.
 #[must_use]
-pub fn is_wheel<N>(equations: &Equations<N>, group: &Group) -> bool {
-    group.gears.len() == 1 && equations.classes == 2 && equations.loops() == 0 && equations.slides.is_empty()
-}
-
-/// The rotations of a wheel, all n of them where its n-th power is known; `None` where that power is not kept from 0 by its disc.
-fn wheel_by_roots(mesh: &Mesh) -> Option<Vec<Root>> {
-    let exponent = mesh.exponents[1];
-    let known = if exponent < 0 { mesh.factor.mirrored() } else { mesh.factor.clone() };
-    let root = |z: Disc| {
-        let turn = Isotropic { w: Value::within(z.inverse()?), z: Value::within(z) };
-        Some(Root { turns: vec![Number::one(), turn], shifts: Vec::new(), multiplicity: 1 })
-    };
-    known.z.disc.roots(exponent.unsigned_abs())?.into_iter().map(root).collect()
-}
-
-/// The rotation of a wheel that turns once for every turn of what drives it; `None` of others.
-fn wheel(mesh: &Mesh) -> Option<Number> {
-    match mesh.exponents[1] {
-        1 => Some(mesh.factor.clone()),
-        -1 => Some(mesh.factor.mirrored()),
-        _ => None,
-    }
-}
-
-/// The polynomials that vanish: both parts of every cycle and every pair of gears, and the circles of the classes.
-fn system(cycles: &Equations<Isotropic<Gaussian>>, meshes: &[Mesh], factors: &[Gaussian]) -> RealSystem {
-    let mut list: Vec<_> = cycle_forms(cycles).into_iter().flat_map(|sum| [sum.re, sum.im]).collect();
-    for (mesh, factor) in meshes.iter().zip(factors) {
-        let side = |sign: i32| {
-            let terms = mesh.exponents.iter().enumerate().filter(|(_, exponent)| **exponent * sign > 0);
-            terms.fold(Form::one(), |product, (class, exponent)| product.mul(&turned(class, exponent.abs())))
-        };
-        let difference = side(1).sub(&constant(factor).mul(&side(-1)));
-        list.extend([difference.re, difference.im]);
-    }
-    list.extend(circles(cycles.classes));
-    list.retain(|equation| !equation.is_zero());
-    let ways = (0..cycles.slides.len()).map(|slide| way(cycles.classes, slide).re);
-    RealSystem {
-        unknowns: unknowns(cycles),
-        turns: (0..cycles.classes).map(|class| turned(class, 1)).collect(),
-        shifts: ways.collect(),
-        equations: list,
-        spinning: Vec::new(),
-    }
+pub fn is_train<N>(equations: &Equations<N>) -> bool {
+    equations.loops() == 0 && equations.slides.is_empty()
 }

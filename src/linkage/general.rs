@@ -44,11 +44,21 @@ pub struct Found {
     pub doubt: Option<String>,
     /// The choices that were made.
     pub choices: Vec<Choice>,
+    /// The classes at rest and hidden of a choice whose roots all led to solutions of their own; for numbers that are not rational, of the
+    /// rational ones near them.
+    pub met: Option<(usize, usize)>,
 }
 
 impl Found {
     fn nothing(doubt: &str) -> Self {
-        Self { solutions: Vec::new(), most: None, size: 0, doubt: Some(doubt.to_owned()), choices: Vec::new() }
+        Self {
+            solutions: Vec::new(),
+            most: None,
+            size: 0,
+            doubt: Some(doubt.to_owned()),
+            choices: Vec::new(),
+            met: None,
+        }
     }
 }
 
@@ -59,7 +69,7 @@ pub struct Choice {
     pub rest: usize,
     /// The class whose rotation is hidden.
     pub hidden: usize,
-    pencil: Pencil<Gaussian>,
+    pub(super) pencil: Pencil<Gaussian>,
     /// The closure polynomial in the half tangent of the hidden class, less a turn.
     pub found: ClosurePolynomial,
     turn: Isotropic<Gaussian>,
@@ -84,10 +94,13 @@ impl Choice {
 
     /// The classes whose rotations a vector of the kernel does not tell: those that are not the difference of two sets.
     fn untold(&self) -> Vec<usize> {
-        let sets = &self.pencil.sets;
-        let has = |set: u32| sets.binary_search(&set).is_ok();
-        let is_untold = |(j, _): &(usize, &usize)| !sets.iter().any(|set| has(set ^ (1 << j)));
+        let is_untold = |(j, _): &(usize, &usize)| self.pencil.pairs(*j).is_empty();
         self.pencil.classes.iter().enumerate().filter(is_untold).map(|(_, class)| *class).collect()
+    }
+
+    /// Whether a vector of the kernel tells all rotations, or all that there is to tell.
+    pub(super) fn tells(&self, equations: &Equations<Isotropic<Gaussian>>) -> bool {
+        self.untold().is_empty() || self.tells_all(equations)
     }
 
     /// Whether a vector of the kernel tells all rotations and displacements: what it does not tell itself follows from the cycles, as
@@ -118,9 +131,14 @@ pub fn general(equations: &Equations<Number>) -> Found {
     // Roots of one choice that lead nowhere may be no roots of another, or lead on from there.
     for (rest, hidden) in ranked(&exact).into_iter().take(TRIES) {
         let Some(choice) = choice(&exact, rest, hidden) else { continue };
+        // Where a vector leaves rotations open, two assemblies may have the same one.
+        if !choice.tells(&exact) {
+            continue;
+        }
         extend(&mut found, equations, &approximate, &choice);
         if found.most == Some(found.solutions.len()) {
             found.doubt = None;
+            found.met = Some((rest, hidden));
             break;
         }
         found.choices.push(choice);
@@ -213,12 +231,9 @@ pub(super) fn least_rows(exact: &Equations<Isotropic<Gaussian>>) -> Option<usize
 fn pencils(exact: &Equations<Isotropic<Gaussian>>) -> Vec<(usize, usize, Pencil<Residue>)> {
     let residues = exact.map(|n| Some(Isotropic { z: residue(&n.z)?, w: residue(&n.w)? }));
     let Some(residues) = residues else { return Vec::new() };
-    let mut rest: Vec<usize> = (0..exact.classes).collect();
-    if let Some(slide) = exact.slides.first() {
-        rest.retain(|class| *class == slide.class);
-    }
-    let pairs =
-        rest.iter().flat_map(|rest| (0..exact.classes).map(move |hidden| (*rest, hidden))).filter(|(a, b)| a != b);
+    let classes = 0..exact.classes;
+    let pairs = classes.clone().flat_map(|rest| classes.clone().map(move |hidden| (rest, hidden)));
+    let pairs = pairs.filter(|(a, b)| a != b);
     // Without slides it makes no difference which class rests and which is hidden.
     let pairs = pairs.filter(|(a, b)| a < b || !exact.slides.is_empty());
     let mut pencils: Vec<(usize, usize, Pencil<Residue>)> = pairs
@@ -276,13 +291,15 @@ fn linear_determinant(pencil: &Pencil<Residue>) -> Option<Univariate<Residue>> {
     let mut constant = vec![vec![Residue::zero(); size]; size];
     let mut slope = constant.clone();
     for (k, row) in pencil.rows.iter().enumerate() {
-        let [by, inverse] = &row.by[0];
-        let (rest, first) = if inverse.is_zero() { (&mut constant, &mut slope) } else { (&mut slope, &mut constant) };
-        if !inverse.is_zero() && !by.is_zero() {
+        let has = |half: usize| row.entries.iter().any(|entry| !entry.by[0][half].is_zero());
+        let (rest, first) = if has(1) { (&mut slope, &mut constant) } else { (&mut constant, &mut slope) };
+        if has(0) && has(1) {
             return None;
         }
-        first[k][k] = by.add(inverse);
-        rest[k][k] = row.constant;
+        for entry in &row.entries {
+            first[k][entry.column] = entry.by[0][0].add(&entry.by[0][1]);
+            rest[k][entry.column] = entry.constant;
+        }
         for (column, factor) in &row.others {
             rest[k][*column] = *factor;
         }
@@ -346,7 +363,7 @@ fn interpolated_determinant(pencil: &Pencil<Residue>) -> Option<Univariate<Resid
 }
 
 /// The polynomial of a choice, its hidden class turned until the half turn is no root.
-fn choice(exact: &Equations<Isotropic<Gaussian>>, rest: usize, hidden: usize) -> Option<Choice> {
+pub(super) fn choice(exact: &Equations<Isotropic<Gaussian>>, rest: usize, hidden: usize) -> Option<Choice> {
     let pencil = Pencil::new(exact, rest, &[Parameter::Turn(hidden)])?;
     for k in 0..TURNS {
         let turn = turned(k);
@@ -387,7 +404,10 @@ fn approximate_kernel(choice: &Choice, x: Complex<f64>) -> Option<DVector<Comple
     let narrow = |z: &Gaussian| Complex::new(z.re.to_f64(), z.im.to_f64());
     let mut matrix = DMatrix::from_element(size, size, Complex::new(0.0, 0.0));
     for (k, row) in choice.pencil.rows.iter().enumerate() {
-        matrix[(k, k)] = narrow(&row.constant) + narrow(&row.by[0][0]) * x + narrow(&row.by[0][1]) / x;
+        for entry in &row.entries {
+            let [by, inverse] = entry.by[0].each_ref().map(narrow);
+            matrix[(k, entry.column)] = narrow(&entry.constant) + by * x + inverse / x;
+        }
         for (column, factor) in &row.others {
             matrix[(k, *column)] = narrow(factor);
         }
@@ -405,8 +425,10 @@ fn precise_kernel(choice: &Choice, x: &Disc) -> Option<DVector<Complex<f64>>> {
     let back = x.inverse()?;
     let mut matrix = vec![vec![Disc::zero(); size]; size];
     for (k, row) in choice.pencil.rows.iter().enumerate() {
-        let [by, inverse] = row.by[0].each_ref().map(disc_of);
-        matrix[k][k] = disc_of(&row.constant).add(&by.mul(x)).add(&inverse.mul(&back));
+        for entry in &row.entries {
+            let [by, inverse] = entry.by[0].each_ref().map(disc_of);
+            matrix[k][entry.column] = disc_of(&entry.constant).add(&by.mul(x)).add(&inverse.mul(&back));
+        }
         for (column, factor) in &row.others {
             matrix[k][*column] = disc_of(factor);
         }
@@ -450,30 +472,33 @@ fn start(
     x: Complex<f64>,
     kernel: &DVector<Complex<f64>>,
 ) -> Option<Start> {
-    let size = choice.pencil.sets.len();
     let mut turns = vec![Complex::new(1.0, 0.0); equations.classes];
     turns[choice.hidden] = x;
     let untold = choice.untold();
     for (j, class) in choice.pencil.classes.iter().enumerate().filter(|(_, class)| !untold.contains(class)) {
-        let pairs = (0..size).filter(|k| choice.pencil.sets[*k] >> j & 1 == 1);
-        let pairs = pairs
-            .filter_map(|k| Some((k, choice.pencil.sets.binary_search(&(choice.pencil.sets[k] ^ (1 << j))).ok()?)));
         // theta_j = v_(S - j) / v_S from the largest pair.
-        let weight = |pair: &(usize, usize)| kernel[pair.0].norm().min(kernel[pair.1].norm());
-        let (with, without) = pairs.max_by(|a, b| weight(a).total_cmp(&weight(b)))?;
+        let weight = |pair: &[usize; 2]| kernel[pair[0]].norm().min(kernel[pair[1]].norm());
+        let [with, without] = choice.pencil.pairs(j).into_iter().max_by(|a, b| weight(a).total_cmp(&weight(b)))?;
         turns[*class] = kernel[without] / kernel[with];
     }
     let slides = equations.slides.len();
     if slides + untold.len() > 0 {
-        // The other rotations and the slides from the first halves, by least squares.
+        // The other rotations and the slides from the first halves, by least squares; slides alone from both.
         let loops = equations.loops();
-        let a = DMatrix::from_fn(loops, untold.len() + slides, |k, column| match column.checked_sub(untold.len()) {
+        let rows = if untold.is_empty() { 2 * loops } else { loops };
+        let part = |n: &Isotropic<Complex<f64>>, turn: Complex<f64>, k: usize| {
+            if k < loops { n.z * turn } else { n.w / turn }
+        };
+        let a = DMatrix::from_fn(rows, untold.len() + slides, |k, column| match column.checked_sub(untold.len()) {
             None => equations.cycles[k][untold[column]].z,
-            Some(q) => equations.slides[q].coefficients[k].z * turns[equations.slides[q].class],
+            Some(q) => {
+                let slide = &equations.slides[q];
+                part(&slide.coefficients[k % loops], turns[slide.class], k)
+            }
         });
         let told = (0..equations.classes).filter(|class| !untold.contains(class)).collect::<Vec<usize>>();
-        let b = DVector::from_fn(loops, |k, _| {
-            -told.iter().map(|j| equations.cycles[k][*j].z * turns[*j]).sum::<Complex<f64>>()
+        let b = DVector::from_fn(rows, |k, _| {
+            -told.iter().map(|j| part(&equations.cycles[k % loops][*j], turns[*j], k)).sum::<Complex<f64>>()
         });
         let solved: Vec<Complex<f64>> = a.svd(true, true).solve(&b, 1e-12).ok()?.iter().copied().collect();
         untold.iter().zip(&solved).for_each(|(class, turn)| turns[*class] = *turn);

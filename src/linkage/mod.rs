@@ -29,6 +29,7 @@ pub mod krawczyk;
 pub mod laurent;
 pub mod limits;
 pub mod loads;
+mod members;
 pub mod parts;
 pub mod pencil;
 mod points;

@@ -4,7 +4,7 @@
 //! and of its complement are conjugate. Written with the real and imaginary parts p and q of `v_S` up to a common factor,
 //! `v_S = p + i q` and `v_(complement) = p - i q`, half of the rows are a real matrix.
 
-use super::pencil::{Parameter, Pencil, Row};
+use super::pencil::{self, Parameter, Pencil, Row};
 use crate::algebra::modular::Terms;
 use crate::algebra::ring::Ring;
 use crate::kinematics::linkage::Gaussian;
@@ -20,6 +20,10 @@ pub struct RealForm {
     /// The degree of its determinant in every variable where no root of it is infinite.
     pub degrees: Vec<usize>,
 }
+
+/// A number in whose direction the real part of an equation is taken that is a real one times another number: one that no direction of
+/// simple data is at right angles to.
+const OFF_AXES: [i32; 2] = [1009, 501];
 
 /// A polynomial with complex coefficients, by its exponents.
 type Entry = BTreeMap<Vec<u32>, Gaussian>;
@@ -96,12 +100,12 @@ impl Variables {
         all
     }
 
-    /// The coefficient of a row before its own set, times all denominators.
-    fn own(&self, parameters: &[Parameter], row: &Row<Gaussian>, used: &[[bool; 2]]) -> Entry {
+    /// A coefficient with parameters, times all denominators of its row.
+    fn own(&self, parameters: &[Parameter], entry: &pencil::Entry<Gaussian>, used: &[[bool; 2]]) -> Entry {
         let factor = self.cleared(used, None);
         let mut own = Entry::new();
-        add_multiple(&mut own, &row.constant, &factor);
-        for (k, (parameter, by)) in parameters.iter().zip(&row.by).enumerate() {
+        add_multiple(&mut own, &entry.constant, &factor);
+        for (k, (parameter, by)) in parameters.iter().zip(&entry.by).enumerate() {
             let first = self.first[k];
             match parameter {
                 Parameter::Turn(_) => {
@@ -129,35 +133,38 @@ impl RealForm {
     /// The real form of a pencil whose data are those of real bodies; `None` where sets have no complements.
     #[must_use]
     pub fn new(pencil: &Pencil<Gaussian>) -> Option<Self> {
-        if pencil.classes.is_empty() {
-            return Self::of_one(pencil);
-        }
-        let all = (1_u32 << pencil.classes.len()) - 1;
-        // One of every two complementary sets: the one without the last class.
-        let last = 1_u32 << pencil.classes.len().checked_sub(1)?;
-        let kept: Vec<usize> = (0..pencil.sets.len()).filter(|k| pencil.sets[*k] & last == 0).collect();
-        let half = kept.len();
-        if 2 * half != pencil.sets.len() {
+        // One of every two complementary sets; a set that is its own complement has a real v.
+        let kept: Vec<usize> =
+            (0..pencil.sets.len()).filter(|k| pencil.sets[*k] <= pencil.complement(pencil.sets[*k])).collect();
+        let is_own = |set: u32| pencil.complement(set) == set;
+        let doubled: Vec<usize> = kept.iter().copied().filter(|k| !is_own(pencil.sets[*k])).collect();
+        let size = kept.len() + doubled.len();
+        if size == 0 || size != pencil.sets.len() {
             return None;
         }
+        // The columns of the real and of the imaginary part, and the sign of that.
         let column = |k: usize| {
             let set = pencil.sets[k];
-            let (own, sign) = if set & last == 0 { (set, 1) } else { (all ^ set, -1) };
-            let place = pencil.sets.binary_search(&own).ok().and_then(|at| kept.binary_search(&at).ok())?;
-            Some((place, Rational::from(sign)))
+            let mirror = pencil.complement(set);
+            let (own, sign) = if set <= mirror { (set, 1) } else { (mirror, -1) };
+            let at = pencil.sets.binary_search(&own).ok()?;
+            let imaginary = doubled.binary_search(&at).ok().map(|place| kept.len() + place);
+            Some((kept.binary_search(&at).ok()?, imaginary, Rational::from(sign)))
         };
         let variables = Variables::of(&pencil.parameters);
-        let size = pencil.sets.len();
         let mut matrix = Vec::with_capacity(size);
         let mut degrees = vec![0; variables.total];
         for k in &kept {
             let row = &pencil.rows[*k];
+            let is_own = is_own(pencil.sets[*k]);
             let used = denominators(pencil, row);
             for (place, used) in variables.first.iter().zip(&used) {
-                degrees[*place] += 2 * used.iter().filter(|used| **used).count();
+                degrees[*place] += if is_own { 1 } else { 2 } * used.iter().filter(|used| **used).count();
             }
             let factor = variables.cleared(&used, None);
-            let mut entries = vec![(*k, variables.own(&pencil.parameters, row, &used))];
+            let own = row.entries.iter();
+            let mut entries: Vec<(usize, Entry)> =
+                own.map(|entry| (entry.column, variables.own(&pencil.parameters, entry, &used))).collect();
             for (other, coefficient) in &row.others {
                 let mut entry = Entry::new();
                 add_multiple(&mut entry, coefficient, &factor);
@@ -165,47 +172,34 @@ impl RealForm {
             }
             let mut pair = [vec![Real::new(); size], vec![Real::new(); size]];
             for (other, entry) in entries {
-                let (place, sign) = column(other)?;
+                let (place, imaginary, sign) = column(other)?;
                 for (exponents, c) in entry {
+                    let c = if is_own { c.mul(&gaussian(OFF_AXES[0], OFF_AXES[1])) } else { c };
                     // c (p + s i q) = (re p - s im q) + i (im p + s re q)
                     let mut add = |row: usize, place: usize, by: Rational| {
                         *pair[row][place].entry(exponents.clone()).or_default() += by;
                     };
-                    add(0, half + place, Rational::from(-&c.im) * &sign);
-                    add(1, half + place, Rational::from(&c.re * &sign));
+                    if let Some(imaginary) = imaginary {
+                        add(0, imaginary, Rational::from(-&c.im) * &sign);
+                        add(1, imaginary, Rational::from(&c.re * &sign));
+                    }
                     add(0, place, c.re);
                     add(1, place, c.im);
                 }
             }
-            matrix.extend(pair.iter().map(|row| integers(row)));
+            // An equation that is its own mirror image is a real one times a complex number, and its parts say the same.
+            matrix.extend(pair.iter().take(if is_own { 1 } else { 2 }).map(|row| integers(row)));
         }
         Some(Self { matrix, degrees })
-    }
-
-    /// Returns the form of a pencil without an unknown rotation: its one equation is its own mirror image, a real one times a
-    /// complex number.
-    fn of_one(pencil: &Pencil<Gaussian>) -> Option<Self> {
-        let [row] = pencil.rows.as_slice() else { return None };
-        let variables = Variables::of(&pencil.parameters);
-        let used = denominators(pencil, row);
-        let own = variables.own(&pencil.parameters, row, &used);
-        let part = |f: fn(&Gaussian) -> &Rational| -> Real {
-            own.iter().map(|(exponents, c)| (exponents.clone(), f(c).clone())).filter(|(_, q)| *q != 0).collect()
-        };
-        let real = Some(part(|c| &c.re)).filter(|real| !real.is_empty()).unwrap_or_else(|| part(|c| &c.im));
-        let mut degrees = vec![0; variables.total];
-        for (place, used) in variables.first.iter().zip(&used) {
-            degrees[*place] = used.iter().filter(|used| **used).count();
-        }
-        Some(Self { matrix: vec![integers(&[real])], degrees })
     }
 }
 
 /// Returns the denominators that the rotations of a row have: their own and those of their inverses.
 fn denominators(pencil: &Pencil<Gaussian>, row: &Row<Gaussian>) -> Vec<[bool; 2]> {
     let is_turn = |parameter: &Parameter| matches!(parameter, Parameter::Turn(_));
-    let both = pencil.parameters.iter().zip(&row.by);
-    both.map(|(parameter, by)| by.each_ref().map(|c| is_turn(parameter) && !c.is_zero())).collect()
+    let has = |k: usize, half: usize| row.entries.iter().any(|entry| !entry.by[k][half].is_zero());
+    let parameters = pencil.parameters.iter().enumerate();
+    parameters.map(|(k, parameter)| [0, 1].map(|half| is_turn(parameter) && has(k, half))).collect()
 }
 
 /// A polynomial with rational coefficients, by its exponents.

@@ -158,7 +158,7 @@ impl RealSystem {
 }
 
 /// Whether the second half of every number is the conjugate of the first.
-fn is_real(equations: &Equations<Isotropic<Gaussian>>) -> bool {
+pub(super) fn is_real(equations: &Equations<Isotropic<Gaussian>>) -> bool {
     let slides = equations.slides.iter().flat_map(|slide| &slide.coefficients);
     equations.cycles.iter().flatten().chain(slides).all(|number| *number == Isotropic::of(&number.z))
 }

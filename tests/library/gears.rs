@@ -2,13 +2,15 @@
 #![allow(clippy::unwrap_used)]
 
 use looproot::internal::catalogue::{Any, Format, LinkageFile, Options, any_from_text};
-use looproot::internal::kinematics::linkage::Accuracy;
-use looproot::internal::linkage::answer::{LinkageAnswer, solve};
+use looproot::internal::kinematics::linkage::{Accuracy, Given};
+use looproot::internal::linkage::answer::{LinkageAnswer, LinkageMode, solve};
+use looproot::internal::sweep::{AssemblyBranch, Range, sweep_linkage};
 use looproot::internal::verdict::{Proof, Status};
 use num_complex::Complex;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rug::Rational;
+use std::f64::consts::PI;
 
 type Gaussian = (Rational, Rational);
 
@@ -353,7 +355,111 @@ b3 = {{ J2 = [3, -2] }}
     }
 }
 
-/// A group of several loops and a slide on an irrational dyad: its assemblies are listed, not proved to be all.
+/// An arm whose planet runs on a fixed ring and on a sun that a dyad turns: neither pair of gears places it alone.
+#[test]
+fn an_arm_between_two_wheels_on_a_dyad_takes_every_position() {
+    let text = r#"
+[mechanism]
+kind = "linkage"
+space = "plane"
+ground = "b0"
+joints = [
+ { name = "J0", type = "R", of = ["b0", "sun"] },
+ { name = "J1", type = "R", of = ["sun", "b2"] },
+ { name = "J3", type = "R", of = ["b0", "b2"] },
+ { name = "O", type = "R", of = ["b0", "arm"] },
+ { name = "P", type = "R", of = ["arm", "planet"] },
+ { name = "G", type = "gear", of = ["sun", "planet"], carrier = "arm", ratio = -2 },
+ { name = "H", type = "gear", of = ["b0", "planet"], carrier = "arm", ratio = 3 },
+]
+[mechanism.bodies]
+b0 = { J0 = [0, -1], J3 = [2, 2], O = [0, -1] }
+sun = { J0 = [3, -2], J1 = [1, -1] }
+b2 = { J1 = ["-3/2", 8], J3 = [1, 4] }
+arm = { O = 0, P = 4 }
+planet = { P = 0 }
+"#;
+    let answer = solved(text);
+    assert_eq!((answer.verdict.status, answer.verdict.proof), (Status::Complete, Proof::Proved));
+    // planet - arm = -2 (sun - arm) = -3 arm: five positions of the arm for each of the two of the sun.
+    assert_eq!((answer.verdict.complex, answer.verdict.real), (10, 10));
+    for mode in &answer.modes {
+        let [sun, arm, planet] = [1, 3, 4].map(|body: usize| mode.bodies[body].0.re);
+        for zero in [planet - 3.0 * arm + 2.0 * sun, planet + 2.0 * arm] {
+            assert!((Complex::cis(zero) - 1.0).norm() < 1e-12, "{zero}");
+        }
+    }
+}
+
+/// The half-angle tangents of the bodies but the first in a planted assembly.
+const PLANTED: [f64; 5] = [-1.0 / 9.0, -5.0 / 4.0, 4.0 / 5.0, -3.0 / 1.0, 2.0 / 3.0];
+
+/// Three pairs of gears in a loop of six links: five rotations are powers of two.
+#[test]
+fn three_pairs_of_gears_in_one_loop() {
+    let text = r#"
+[mechanism]
+kind = "linkage"
+space = "plane"
+ground = "b0"
+joints = [
+    { name = "j0", type = "R", of = ["b0", "b1"] },
+    { name = "j1", type = "R", of = ["b1", "b2"] },
+    { name = "j2", type = "R", of = ["b2", "b3"] },
+    { name = "j3", type = "R", of = ["b3", "b4"] },
+    { name = "j4", type = "R", of = ["b4", "b5"] },
+    { name = "j5", type = "R", of = ["b5", "b0"] },
+    { name = "g0", type = "gear", of = ["b1", "b5"], carrier = "b0", ratio = 2, phase = { tan_half = "107/102" } },
+    { name = "g1", type = "gear", of = ["b0", "b2"], carrier = "b1", ratio = -1, phase = { tan_half = "-4/5" } },
+    { name = "g2", type = "gear", of = ["b3", "b5"], carrier = "b4", ratio = 3, phase = { tan_half = "-3371/3322" } },
+]
+[mechanism.bodies]
+b0 = { j0 = ["2", "-6"], j5 = ["7", "3"] }
+b1 = { j0 = ["53/41", "138/41"], j1 = ["-356/41", "88/41"] }
+b2 = { j1 = ["503/41", "-181/41"], j2 = ["297/41", "361/41"] }
+b3 = { j2 = ["-253/41", "-183/41"], j3 = ["-36/41", "160/41"] }
+b4 = { j3 = ["31/5", "8/5"], j4 = ["27/5", "11/5"] }
+b5 = { j4 = ["83/13", "105/13"], j5 = ["106/13", "16/13"] }
+"#;
+    let answer = solved(text);
+    assert_eq!((answer.verdict.status, answer.verdict.proof), (Status::Complete, Proof::Proved));
+    let is_planted = |mode: &&LinkageMode| {
+        let tangents = [(1, PLANTED[0]), (2, PLANTED[1]), (3, PLANTED[2]), (4, PLANTED[3]), (5, PLANTED[4])];
+        tangents.iter().all(|(body, t): &(usize, f64)| {
+            (Complex::cis(mode.bodies[*body].0.re - 2.0 * t.atan()) - 1.0).norm() < 1e-9
+        })
+    };
+    assert_eq!(answer.modes.iter().filter(is_planted).count(), 1);
+}
+
+/// A crank that drives a wheel of an integer ratio: the sweep is that of a dyad.
+#[test]
+fn sweeps_of_geared_five_bars_are_proved() {
+    for seed in 0..12 {
+        let Planted { text, .. } = planted(&mut ChaCha8Rng::seed_from_u64(seed), "A");
+        let file = read(&text);
+        let Some(Given::Turn { joint, .. }) = file.cases[0].given.first() else { panic!("an angle") };
+        let range = Range { from: -PI, to: PI, steps: 30 };
+        let found = sweep_linkage(&file.linkage, file.given(&file.cases[0]), *joint, range, || ()).unwrap();
+        // Wheels of q positions for one of the crank are no dyads.
+        let is_whole = text.contains("/1\", phase");
+        assert_eq!(found.verdict.proof == Proof::Proved, is_whole, "{seed}: {}", found.verdict.reason);
+        for sample in &found.samples {
+            let over = |branch: &AssemblyBranch| {
+                let turns = (-3..=3).map(|turn| sample.input + 2.0 * PI * f64::from(turn));
+                turns.filter(|x| branch.from < *x && *x < branch.to).count()
+            };
+            let branches: usize = found.branches.iter().map(over).sum();
+            assert!(
+                !is_whole || sample.input.abs() > 3.1 || branches == sample.modes.len(),
+                "{seed}: {}",
+                sample.input
+            );
+        }
+    }
+}
+
+/// A group of several loops and slides in bodies that turn on an irrational dyad.
 #[test]
 fn groups_with_slides_are_solved_near_rational_numbers() {
     let text = r#"

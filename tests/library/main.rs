@@ -32,6 +32,7 @@ mod platform;
 mod printed;
 mod real_field;
 mod robots;
+mod slides;
 mod space;
 mod sphere;
 mod sphere_proof;

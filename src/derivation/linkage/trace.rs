@@ -160,7 +160,8 @@ fn curve(
     let (Some(exact), Some(rest)) = (exact, rest) else {
         return Err(unsupported("has data that are not rational"));
     };
-    let pencil = Pencil::new(&exact, rest, &[Parameter::Point]);
+    // Whether slides that turn leave factors of their own has not been looked into.
+    let pencil = Pencil::new(&exact, rest, &[Parameter::Point]).filter(|pencil| pencil.plain == pencil.classes.len());
     let pencil = pencil.ok_or_else(|| unsupported("depends on slides that are fixed in bodies that turn"))?;
     let rows = pencil.sets.len();
     if rows > LARGE {
