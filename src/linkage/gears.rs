@@ -276,7 +276,8 @@ fn shorten(
         |a: &[i32], b: &[i32]| a.iter().zip(b).skip(from).map(|(x, y)| i64::from(*x) * i64::from(*y)).sum::<i64>();
     loop {
         let mut is_shorter = false;
-        for (one, by) in (0..columns.len()).flat_map(|one| (first..columns.len()).map(move |by| (one, by))) {
+        let size = columns.len();
+        for (one, by) in (0..size).flat_map(|one| (first..size).map(move |by| (one, by))) {
             let (product, square) = (dot(&columns[one], &columns[by]), dot(&columns[by], &columns[by]));
             // Rounded to the nearest, halves to zero.
             let times = (2 * product.abs() + square - 1) / (2 * square) * product.signum();
