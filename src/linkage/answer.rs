@@ -220,7 +220,7 @@ fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily]
     let has = |wanted: fn(&Route) -> bool| found.groups.iter().any(|group| wanted(&group.route));
     let mut because = because(&has);
     if found.is_probable {
-        because += ", where numbers are not rational as many as members with numbers that are drawn have roots";
+        because += "; groups whose numbers are not rational have as many as members whose numbers are drawn";
     }
     let has_boxes = has(|route| matches!(route, Route::Boxes(_)));
     let code = if found.is_probable {

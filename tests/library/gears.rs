@@ -485,6 +485,7 @@ b3 = { J2 = [2, -1], J4 = ["-5/2", -6], J7 = [0, 0] }
 b4 = { J3 = [1, 0], J4 = [3, -1], J5 = [0, 0], J6 = ["4/3", 2] }
 "#;
     let answer = solved(text);
-    assert_eq!((answer.verdict.status, answer.verdict.proof), (Status::Incomplete, Proof::None));
-    assert!(answer.verdict.real >= 16, "{}", answer.verdict.real);
+    assert_eq!(answer.verdict.status, Status::Complete, "{}", answer.verdict.reason);
+    assert!(matches!(answer.verdict.proof, Proof::Probable { .. }));
+    assert_eq!((answer.verdict.complex, answer.verdict.real), (36, 16));
 }

@@ -4,6 +4,7 @@
 use looproot::internal::catalogue::{Any, Format, LinkageFile, Options, any_from_text};
 use looproot::internal::linkage::answer::{LinkageAnswer, solve};
 use looproot::internal::verdict::{Proof, Status};
+use looproot_algebra::ring::Ring;
 use num_complex::Complex;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -47,7 +48,9 @@ fn written(a: &Gaussian) -> String {
 /// A member of a structure with slides at these joints, and the angles of its bodies in a planted assembly.
 fn planted(joints: &[[usize; 2]], slides: &[usize], random: &mut ChaCha8Rng) -> (String, Vec<f64>) {
     let count = joints.iter().flatten().max().unwrap() + 1;
-    let point = |random: &mut ChaCha8Rng| whole(random.random_range(-9..10), random.random_range(-9..10));
+    // Nine digits: a Gröbner basis of the cycles takes more work than is allowed.
+    let part = |random: &mut ChaCha8Rng| Rational::from((random.random_range(-900_000_000..900_000_000), 100_000_001));
+    let point = |random: &mut ChaCha8Rng| Complex::new(part(random), part(random));
     let mut poses: Vec<(Gaussian, Gaussian)> = (0..count).map(|_| (turn(random), point(random))).collect();
     poses[0] = (whole(1, 0), whole(0, 0));
     let (mut list, mut bodies) = (String::new(), vec![String::new(); count]);
@@ -60,13 +63,13 @@ fn planted(joints: &[[usize; 2]], slides: &[usize], random: &mut ChaCha8Rng) -> 
             let (x, y) = [(3, 4), (5, 12), (1, 0), (-3, 4), (4, 3), (-5, 12), (8, 15)][random.random_range(0..7)];
             let way = whole(x, y);
             let shift = Rational::from((random.random_range(-7..8), 2));
-            there = here.clone() + Complex::new(way.re.clone() * &shift, way.im.clone() * &shift);
-            let along = [a, b].map(|body| written(&(back(*body) * way.clone())));
+            there = here.add(&Complex::new(way.re.clone() * &shift, way.im.clone() * &shift));
+            let along = [a, b].map(|body| written(&back(*body).mul(&way)));
             kind = format!("type = \"P\", along = [{}, {}]", along[0], along[1]);
         }
         writeln!(list, "{{ name = \"j{k}\", {kind}, of = [\"b{a}\", \"b{b}\"] }},").unwrap();
         for (body, at) in [(*a, here), (*b, there)] {
-            let own = back(body) * (at - poses[body].1.clone());
+            let own = back(body).mul(&at.sub(&poses[body].1));
             write!(bodies[body], "j{k} = {}, ", written(&own)).unwrap();
         }
     }
