@@ -147,12 +147,12 @@ struct Sliding<R> {
 impl<R> Sliding<R> {
     /// The state in a set: 0 to 3 for 1, `1/theta`, `s/theta` and `1/theta^2`.
     fn state(&self, set: u32) -> u32 {
-        set / self.bit & 3
+        (set / self.bit) & 3
     }
 
     /// The set with another state.
     fn with(&self, set: u32, state: u32) -> u32 {
-        set & !(3 * self.bit) | state * self.bit
+        set & !(3 * self.bit) | (state * self.bit)
     }
 }
 
