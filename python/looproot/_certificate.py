@@ -25,6 +25,8 @@ class Verification:
     """The first item that does not hold."""
     mobility: int | None = None
     """Of a proof whether a loop moves: the dimension of the motion, 0 where there is none."""
+    self_motion: int | None = None
+    """Of a proof that solutions form a curve: 1."""
 
 
 @dataclass(frozen=True)
