@@ -28,6 +28,7 @@ def own_modes(system, modes, item, *others):
         require(not others, f"proof: found {1 + len(others)} items, where one bounds the number of solutions")
         return modes
     require(len(others) <= 1, f"proof: found {1 + len(others)} items, expected one or two")
+    require(all(other["kind"] == "points" for other in others), "proof: points show which modes are those of the loop")
     points, is_own_bound = [Points(system, other) for other in others], item["kind"] == "own-eliminant"
     added = [TURN] * (6 - system.size)
     if is_own_bound and points:

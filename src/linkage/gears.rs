@@ -23,7 +23,7 @@ use rug::Rational;
 /// Largest sum of the numbers of teeth in lowest terms: monomials of a basis have degrees up to 127.
 pub const MOST_TEETH: i32 = 40;
 
-/// Exponents beyond which products of rotations are not formed: far above those of any ratios that are solved.
+/// Exponents and numbers of factors beyond which products of rotations are not formed: far above those of any ratios that are solved.
 const LARGE: i32 = 1 << 12;
 /// Largest sum of exponents of a product of rotations: with a slide the degree of an equation is at most 127.
 const MOST_DEGREE: i32 = 60;
@@ -49,8 +49,18 @@ pub fn teeth(ratio: &Rational) -> Result<(i32, i32)> {
 }
 
 fn power<R: Half>(base: &Isotropic<R>, exponent: i32) -> Isotropic<R> {
-    let base = if exponent < 0 { base.mirrored() } else { base.clone() };
-    (0..exponent.unsigned_abs()).fold(Isotropic::one(), |product, _| product.mul(&base))
+    let mut square = if exponent < 0 { base.mirrored() } else { base.clone() };
+    let (mut product, mut rest) = (Isotropic::one(), exponent.unsigned_abs());
+    while rest > 0 {
+        if rest % 2 == 1 {
+            product = product.mul(&square);
+        }
+        rest /= 2;
+        if rest > 0 {
+            square = square.mul(&square);
+        }
+    }
+    product
 }
 
 /// The pair of gears as an equation between the rotations of the classes.
@@ -74,21 +84,28 @@ fn mesh<R: Half>(linkage: &Linkage, closure: &Closure<R>, state: &State<R>, gear
 #[derive(Clone)]
 struct Power<R = Value> {
     factor: Isotropic<R>,
+    /// Number of factors of meshes that are multiplied in `factor`.
+    factors: i32,
     exponents: Vec<i32>,
 }
 
 impl<R: Half> Power<R> {
     fn one(unknowns: usize) -> Self {
-        Self { factor: Isotropic::one(), exponents: vec![0; unknowns] }
+        Self { factor: Isotropic::one(), factors: 0, exponents: vec![0; unknowns] }
     }
 
-    /// This times a power of another one.
-    fn times(mut self, other: &Self, exponent: i32) -> Self {
+    /// This times a power of another one; `None` where exponents or factors become too many.
+    fn times(mut self, other: &Self, exponent: i32) -> Option<Self> {
+        let sum = |own: i32, x: i32| own.checked_add(x.checked_mul(exponent)?).filter(|x| x.abs() < LARGE);
         if exponent != 0 {
+            for (own, x) in self.exponents.iter_mut().zip(&other.exponents) {
+                *own = sum(*own, *x)?;
+            }
+            let more = other.factors.checked_mul(exponent.checked_abs()?)?;
+            self.factors = self.factors.checked_add(more).filter(|count| *count < LARGE)?;
             self.factor = self.factor.mul(&power(&other.factor, exponent));
-            self.exponents.iter_mut().zip(&other.exponents).for_each(|(own, x)| *own += x * exponent);
         }
-        self
+        Some(self)
     }
 
     fn degree(&self) -> i32 {
@@ -166,30 +183,53 @@ impl<R: Half> Torus<R> {
         for column in 0..size {
             let mut own = Power::one(open.len());
             if let Some(row) = solved(column) {
-                own.factor = meshes[row].factor.clone();
-                own = parts.iter().zip(&columns).fold(own, |own, (part, column)| own.times(part, -column[row]));
-                own = Power::one(open.len()).times(&own, columns[column][row]);
+                (own.factor, own.factors) = (meshes[row].factor.clone(), 1);
+                own = parts.iter().zip(&columns).try_fold(own, |own, (part, column)| own.times(part, -column[row]))?;
+                own = Power::one(open.len()).times(&own, columns[column][row])?;
             } else if let Some(place) = open.iter().position(|own| *own == column) {
                 own.exponents[place] = 1;
             }
             parts.push(own);
         }
         let product =
-            |at: usize| parts.iter().zip(&columns).fold(Power::one(open.len()), |own, (p, c)| own.times(p, c[at]));
-        let turns = (0..size).map(|class| product(rows.len() + class));
+            |at: usize| parts.iter().zip(&columns).try_fold(Power::one(open.len()), |own, (p, c)| own.times(p, c[at]));
+        let turns = (0..size).map(|class| product(rows.len() + class)).collect::<Option<Vec<_>>>()?;
         let is_left = |row: &usize| ends[*row].is_none_or(|column| solved(column).is_none());
         let mut left: Vec<usize> = (0..rows.len()).filter(is_left).collect();
         left.sort_by_key(|row| ends[*row].unwrap_or(size));
         let rest = left.into_iter().map(|row| {
-            let own = product(row);
-            Power { factor: own.factor.mul(&meshes[row].factor.mirrored()), exponents: own.exponents }
+            let own = product(row)?;
+            Some(Power { factor: own.factor.mul(&meshes[row].factor.mirrored()), ..own })
         });
         let torus = Self {
             turns: std::iter::once(Power::one(open.len())).chain(turns).collect(),
-            rest: rest.collect(),
+            rest: rest.collect::<Option<_>>()?,
             unknowns: open.len(),
         };
-        torus.turns.iter().chain(&torus.rest).all(|one| one.degree() <= MOST_DEGREE).then_some(torus)
+        (torus.degree() <= MOST_DEGREE).then_some(torus)
+    }
+
+    /// The rotations of all classes as unknown ones, and the meshes as they are.
+    fn plain(meshes: &[Mesh<R>], classes: usize) -> Self {
+        let size = classes - 1;
+        let own = |class: usize| {
+            let mut turn = Power::one(size);
+            if let Some(place) = class.checked_sub(1) {
+                turn.exponents[place] = 1;
+            }
+            turn
+        };
+        let rest = |mesh: &Mesh<R>| Power {
+            factor: mesh.factor.mirrored(),
+            factors: 1,
+            exponents: mesh.exponents[1..].to_vec(),
+        };
+        Self { turns: (0..classes).map(own).collect(), rest: meshes.iter().map(rest).collect(), unknowns: size }
+    }
+
+    /// Largest degree of a rotation, or of what remains of a mesh.
+    fn degree(&self) -> i32 {
+        self.turns.iter().chain(&self.rest).map(Power::degree).max().unwrap_or(0)
     }
 }
 
@@ -241,7 +281,8 @@ impl Torus {
         for rest in &self.rest {
             let side = |sign: i32| {
                 let exponents = rest.exponents.iter().map(|x| (x * sign).max(0)).collect();
-                Power { factor: if sign > 0 { rest.factor.clone() } else { Number::one() }, exponents }.form()
+                let factor = if sign > 0 { rest.factor.clone() } else { Number::one() };
+                Power { factor, exponents, ..rest.clone() }.form()
             };
             let difference = side(1)?.sub(&side(-1)?);
             list.extend([difference.re, difference.im]);
@@ -292,9 +333,8 @@ fn shorten(
     }
 }
 
-fn torus<R: Half>(linkage: &Linkage, closure: &Closure<R>, group: &Group, state: &State<R>) -> Option<Torus<R>> {
-    let meshes = group.gears.iter().map(|gear| mesh(linkage, closure, state, *gear)).collect::<Option<Vec<_>>>()?;
-    Torus::of(&meshes, closure.equations.classes)
+fn meshes<R: Half>(linkage: &Linkage, closure: &Closure<R>, group: &Group, state: &State<R>) -> Option<Vec<Mesh<R>>> {
+    group.gears.iter().map(|gear| mesh(linkage, closure, state, *gear)).collect()
 }
 
 /// The rotations of all classes of a train of gears in which each wheel turns as what drives it says, without a root; `None` of others.
@@ -305,7 +345,10 @@ pub fn driven<R: Half>(
     group: &Group,
     state: &State<R>,
 ) -> Option<Vec<Isotropic<R>>> {
-    let torus = torus(linkage, closure, group, state).filter(|torus| torus.unknowns == 0 && torus.rest.is_empty())?;
+    let torus = Torus::of(&meshes(linkage, closure, group, state)?, closure.equations.classes)?;
+    if torus.unknowns > 0 || !torus.rest.is_empty() {
+        return None;
+    }
     is_train(&closure.equations).then(|| torus.turns.into_iter().map(|turn| turn.factor).collect())
 }
 
@@ -316,13 +359,16 @@ pub fn geared(linkage: &Linkage, closure: &Closure, group: &Group, state: &State
     if let Some(turns) = driven(linkage, closure, group, state) {
         return Solved::Roots(vec![Root { turns, shifts: Vec::new(), multiplicity: 1 }]);
     }
-    let Some(torus) = torus(linkage, closure, group, state) else {
-        return Solved::Undecided("the ratios of a group with gears lead to powers that are too high".to_owned());
+    let Some(meshes) = meshes(linkage, closure, group, state) else {
+        return Solved::Undecided("gears whose bodies are not of one group".to_owned());
     };
+    let (few, plain) = (Torus::of(&meshes, equations.classes), Torus::plain(&meshes, equations.classes));
+    // Few unknown rotations are an advantage where their powers are not higher than those of the meshes.
+    let torus = few.as_ref().filter(|few| few.degree() <= plain.degree()).unwrap_or(&plain);
     let Some(system) = equations.exact().filter(is_real).and_then(|cycles| torus.system(&cycles)) else {
         let undecided =
             || Solved::Undecided("a group with gears stands on an assembly whose numbers are not rational".to_owned());
-        let roots = Some(&torus).filter(|_| is_train(equations)).and_then(Torus::roots);
+        let roots = few.as_ref().filter(|_| is_train(equations)).and_then(Torus::roots);
         return roots.map_or_else(undecided, Solved::Roots);
     };
     if system.unknowns > MOST_VARIABLES {

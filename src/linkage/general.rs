@@ -129,12 +129,10 @@ pub fn general(equations: &Equations<Number>) -> Found {
     let mut found =
         Found::nothing("the matrix of the group is singular for every choice of a hidden body, or has no square form");
     // Roots of one choice that lead nowhere may be no roots of another, or lead on from there.
-    for (rest, hidden) in ranked(&exact).into_iter().take(TRIES) {
-        let Some(choice) = choice(&exact, rest, hidden) else { continue };
-        // Where a vector leaves rotations open, two assemblies may have the same one.
-        if !choice.tells(&exact) {
-            continue;
-        }
+    // Where a vector leaves rotations open, two assemblies may have the same one.
+    let choices = ranked(&exact).into_iter().filter_map(|(rest, hidden)| choice(&exact, rest, hidden));
+    for choice in choices.filter(|choice| choice.tells(&exact)).take(TRIES) {
+        let (rest, hidden) = (choice.rest, choice.hidden);
         extend(&mut found, equations, &approximate, &choice);
         if found.most == Some(found.solutions.len()) {
             found.doubt = None;
@@ -227,8 +225,16 @@ pub(super) fn least_rows(exact: &Equations<Isotropic<Gaussian>>) -> Option<usize
     pencils(exact).first().map(|(_, _, pencil)| pencil.sets.len())
 }
 
+/// Cycles up to which slides may turn in a pencil: with more, its sets are not listed in a second.
+const FEW_CYCLES_OF_SLIDES: usize = 4;
+
 /// The pencils modulo a prime for all classes at rest and hidden, the smallest first.
 fn pencils(exact: &Equations<Isotropic<Gaussian>>) -> Vec<(usize, usize, Pencil<Residue>)> {
+    let first = exact.slides.first().map(|slide| slide.class);
+    // One class with slides rests.
+    if exact.loops() > FEW_CYCLES_OF_SLIDES && exact.slides.iter().any(|slide| Some(slide.class) != first) {
+        return Vec::new();
+    }
     let residues = exact.map(|n| Some(Isotropic { z: residue(&n.z)?, w: residue(&n.w)? }));
     let Some(residues) = residues else { return Vec::new() };
     let classes = 0..exact.classes;
