@@ -365,15 +365,19 @@ pub fn geared(linkage: &Linkage, closure: &Closure, group: &Group, state: &State
     let (few, plain) = (Torus::of(&meshes, equations.classes), Torus::plain(&meshes, equations.classes));
     // Few unknown rotations are an advantage where their powers are not higher than those of the meshes.
     let torus = few.as_ref().filter(|few| few.degree() <= plain.degree()).unwrap_or(&plain);
-    let Some(system) = equations.exact().filter(is_real).and_then(|cycles| torus.system(&cycles)) else {
-        let undecided =
-            || Solved::Undecided("a group with gears stands on an assembly whose numbers are not rational".to_owned());
+    let is_small = 2 * torus.unknowns + equations.slides.len() <= MOST_VARIABLES;
+    let cycles = equations.exact().filter(|cycles| is_small && is_real(cycles));
+    let Some(system) = cycles.and_then(|cycles| torus.system(&cycles)) else {
+        let undecided = || {
+            Solved::Undecided(if is_small {
+                "a group with gears stands on an assembly whose numbers are not rational".to_owned()
+            } else {
+                format!("a group with gears has more than {MOST_VARIABLES} unknowns")
+            })
+        };
         let roots = few.as_ref().filter(|_| is_train(equations)).and_then(Torus::roots);
         return roots.map_or_else(undecided, Solved::Roots);
     };
-    if system.unknowns > MOST_VARIABLES {
-        return Solved::Undecided(format!("a group with gears has more than {MOST_VARIABLES} unknowns"));
-    }
     let Some(basis) = Basis::of(system.unknowns, &system.equations, EFFORT) else {
         return Solved::Undecided("the Gröbner basis of a group with gears takes more work than is allowed".to_owned());
     };
