@@ -4,11 +4,11 @@ import json
 import math
 import tomllib
 
-from mechanism import HALF_TANGENT, KEYS, matrix, system_of
+from mechanism import KEYS, matrix, system_of
 from motions import difference, dot
 from quantities import Refused, Unreadable, is_exact, items, number, require
 from rounded import rotation_near, rotation_of
-from units import UNITS, by_half_tangent, in_units, right_angle
+from units import HALF_TANGENT, UNITS, by_half_tangent, in_units, right_angle
 
 LARGEST = 64 << 20  # bytes of a mechanism file
 FAULTS = (ArithmeticError, AttributeError, LookupError, MemoryError, RecursionError, SyntaxError, TypeError, ValueError)
@@ -29,7 +29,9 @@ class File:
         if half in table:
             return "pi" if table[half] == "inf" else by_half_tangent(in_units(table[half], "m"))
         text = table.get(key, "0")
-        return text if HALF_TANGENT.fullmatch(text) else right_angle(text, self.radian) or in_units(text, self.radian)
+        if match := HALF_TANGENT.fullmatch(text):
+            return by_half_tangent(f"{match[1]}({match[2]})")
+        return right_angle(text, self.radian) or in_units(text, self.radian)
 
     def matrix(self, rows):
         *rows, last = items(rows, 4)

@@ -7,6 +7,7 @@ from quantities import decimal, is_exact, number
 
 UNITS = {"deg": "pi/180", "rad": "1", "m": "1", "cm": "1/100", "mm": "1/1000"}
 PIECES = re.compile(r"([(),]|(?<![a-z])(?:deg|rad|mm|cm|m)\b)")
+HALF_TANGENT = re.compile(r"(-?)2\s*\*\s*atan\(([^()]*)\)")
 QUARTERS = re.compile(r"(?P<number>[+-]?\d{1,9}(?:\.\d{1,9})?)\s*(?P<deg>deg)?|(?P<sign>-?)(?:(?P<times>\d{1,9})\*)?pi(?:/(?P<part>[1-9]\d{0,8}))?", re.ASCII)
 
 
