@@ -146,6 +146,15 @@ def test_certificates_are_about_files_in_other_units(tmp_path, checker):
 
 
 @pytest.mark.parametrize("checker", CHECKERS)
+def test_half_angle_tangents_of_files_have_signs_and_blanks(tmp_path, checker):
+    text = IN_MILLIMETRES.replace('"deg"', '"rad"').replace("alpha = 90", 'alpha = "pi/2"')
+    (tmp_path / "file").write_text(text.replace("alpha = 0, d = 5.5", 'alpha = "2 * atan(-1/3)", d = 5.5'))
+    run(LOOPROOT, "solve", tmp_path / "file", "-q", "--certificate", tmp_path / "certificate")
+    answer = CHECKERS[checker](tmp_path / "certificate", "--file", tmp_path / "file")
+    assert answer.returncode == 0, answer
+
+
+@pytest.mark.parametrize("checker", CHECKERS)
 def test_a_rational_number_near_an_irrational_one_is_another_number(tmp_path, checker):
     """The convergent of the square root of 2 agrees with it to more bits than balls have."""
     convergent = [fmpq(1)]
