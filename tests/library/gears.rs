@@ -392,6 +392,34 @@ planet = { P = 0 }
     }
 }
 
+/// Ratios of long trains multiply: their powers are refused before they are formed.
+#[test]
+fn a_long_train_of_large_ratios_is_undecided() {
+    for phase in ["0", "1/2"] {
+        let wheels = 0..12;
+        let joints: Vec<String> =
+            wheels.clone().map(|k| format!("{{ name = \"j{k}\", type = \"R\", of = [\"f\", \"w{k}\"] }},\n")).collect();
+        let meshes: Vec<String> = (0..12)
+            .map(|k| {
+                let (next, ratio) = ((k + 1) % 12, if k == 11 { 1 } else { 39 });
+                format!(
+                    "{{ name = \"g{k}\", type = \"gear\", of = [\"w{k}\", \"w{next}\"], carrier = \"f\", ratio = {ratio}, phase = {{ tan_half = \"{phase}\" }} }},\n"
+                )
+            })
+            .collect();
+        let ground: Vec<String> = wheels.clone().map(|k| format!("j{k} = [{k}, 0]")).collect();
+        let bodies: Vec<String> = wheels.map(|k| format!("w{k} = {{ j{k} = 0 }}\n")).collect();
+        let text = format!(
+            "[mechanism]\nkind = \"linkage\"\nspace = \"plane\"\nground = \"f\"\njoints = [\n{joints}{meshes}]\n[mechanism.bodies]\nf = {{ {} }}\n{bodies}",
+            ground.join(", "),
+            joints = joints.concat(),
+            meshes = meshes.concat(),
+            bodies = bodies.concat(),
+        );
+        assert_eq!(solved(&text).verdict.status, Status::Incomplete, "{phase}");
+    }
+}
+
 /// The half-angle tangents of the bodies but the first in a planted assembly.
 const PLANTED: [f64; 5] = [-1.0 / 9.0, -5.0 / 4.0, 4.0 / 5.0, -3.0 / 1.0, 2.0 / 3.0];
 
