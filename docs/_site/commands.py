@@ -53,14 +53,14 @@ LEFT_OUT = {
 ELSEWHERE = {
     "apt-get install -y m4 make gcc": ".ci/run",
     ".ci/run": ".ci/run",
-    "pip wheel ./python --no-deps -w dist": ".ci/python",
+    "pip wheel ./python --no-deps -w dist": ".ci/wheel",
     'pip install "pytest>=8"': ".ci/python",
     "pip install dask distributed": ".ci/python",
     "python python/examples/workspace.py": ".ci/python",
     "cargo build --release -p looproot-c": ".ci/c",
     "cmake -S c -B target/c": ".ci/c",
     "target/c/every_posture": ".ci/c",
-    "web/build": ".ci/web",
+    "web/build": ".ci/module",
     "cd assets/viewer && npm ci": ".ci/view",
 }
 NOT_RUN = {
