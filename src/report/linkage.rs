@@ -206,6 +206,10 @@ pub fn text(file: &LinkageFile, case: &LinkageCase, index: usize, answer: &Linka
         let joint = &linkage.joints[*joint];
         format!("{} [{}]", joint.name, if joint.is_prismatic() { "m" } else { "deg" })
     }));
+    let multiple = shown.iter().any(|(_, mode)| mode.multiplicity > 1);
+    if multiple {
+        header.push("multiplicity".to_owned());
+    }
     let mut table = Columns::new(&header, &["mode"]);
     let mut rows = 0;
     for (id, mode) in listed {
@@ -220,7 +224,9 @@ pub fn text(file: &LinkageFile, case: &LinkageCase, index: usize, answer: &Linka
                 }
             })
         };
-        table.row([name].into_iter().chain(joints.iter().map(cell)));
+        // A sample of a family has none.
+        let times = if id == 0 { String::new() } else { mode.multiplicity.to_string() };
+        table.row([name].into_iter().chain(joints.iter().map(cell)).chain(multiple.then_some(times)));
         rows += 1;
     }
     if rows > 0 {

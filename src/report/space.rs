@@ -202,22 +202,29 @@ pub fn text(file: &SpaceFile, case: &SpaceCase, index: usize, answer: &SpaceAnsw
         let name = &linkage.bodies[*body].name;
         header.extend(["x", "y", "z"].map(|axis| format!("{name} {axis} [m]")));
     }
+    let multiple = answer.modes.iter().any(|mode| mode.multiplicity > 1 && (complex || mode.real));
+    if multiple {
+        header.push("multiplicity".to_owned());
+    }
     let mut table = Columns::new(&header, &["mode"]);
     let cell = |z: &Coordinate, scale: f64, real: bool| {
         let (re, im) = (z.re * scale, z.im * scale);
         if real { short(re, 6) } else { format!("{} {im:+.6}i", short(re, 6)) }
     };
     let shown =
-        (1..).zip(&answer.modes).filter(|(_, mode)| complex || mode.real).map(|(k, mode)| (k.to_string(), mode));
-    let listed = shown.chain(answer.sample.iter().map(|(sample, _)| ("family".to_owned(), sample)));
+        (1..).zip(&answer.modes).filter(|(_, mode)| complex || mode.real).map(|(k, mode)| (k.to_string(), mode, false));
+    let listed = shown.chain(answer.sample.iter().map(|(sample, _)| ("family".to_owned(), sample, true)));
     let mut rows = 0;
-    for (name, mode) in listed {
+    for (name, mode, is_sample) in listed {
         let mut row = vec![name];
         for joint in &joints {
             let scale = if linkage.joints[*joint].is_distance() == Some(true) { 1.0 } else { 1.0_f64.to_degrees() };
             row.push(mode.joints[*joint].map_or(String::new(), |z| cell(&z, scale, mode.real)));
         }
         row.extend(bodies.iter().flat_map(|body| mode.position(*body)).map(|z| cell(z, 1.0, mode.real)));
+        // A sample of a family has none.
+        let times = if is_sample { String::new() } else { mode.multiplicity.to_string() };
+        row.extend(multiple.then_some(times));
         table.row(row);
         rows += 1;
     }

@@ -157,15 +157,20 @@ pub fn text(file: &SphereFile, case: &SphereCase, index: usize, answer: &SphereA
     paragraph(&mut text, &verdict(answer));
     let mut header = vec!["mode".to_owned()];
     header.extend(file.linkage.joints.iter().map(|joint| format!("{} [deg]", joint.name)));
-    let mut table = Columns::new(&header, &["mode"]);
     let shown = (1..).zip(&answer.modes).filter(|(_, mode)| complex || mode.real);
+    let multiple = shown.clone().any(|(_, mode)| mode.multiplicity > 1);
+    if multiple {
+        header.push("multiplicity".to_owned());
+    }
+    let mut table = Columns::new(&header, &["mode"]);
     let mut rows = 0;
     for (id, mode) in shown {
         let cell = |z: &Coordinate| {
             let (re, im) = (z.re.to_degrees(), z.im.to_degrees());
             if mode.real { short(re, 6) } else { format!("{} {im:+.6}i", short(re, 6)) }
         };
-        table.row([id.to_string()].into_iter().chain(mode.joints.iter().map(cell)));
+        let times = multiple.then(|| mode.multiplicity.to_string());
+        table.row([id.to_string()].into_iter().chain(mode.joints.iter().map(cell)).chain(times));
         rows += 1;
     }
     if rows > 0 {
