@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 """Checks certificates of looproot: docs/certificate.md has the format and the theorems.
 
-Exit code 0: every item holds; 2: one does not, which is named; 1: the certificate cannot be read.
-"""
+Exit code 0: every item holds; 2: one does not, which is named; 1: the certificate cannot be read."""
 import argparse
 import functools
 import json
 import re
 import sys
 
+import needs  # says what is missing
 import eliminant
 from closures import SLIDE, THREE_JOINTS, Platform, proved_modes
 from conditions import four_joints

@@ -489,6 +489,11 @@ def test_what_is_no_certificate_is_said_in_one_line(certificates, tmp_path, chec
     assert len(lines) == 1 and lines[0].startswith("error: ") and "Traceback" not in answer.stderr, answer
 
 
+def test_without_python_flint_one_line_says_how_to_get_it():
+    answer = run(sys.executable, "-S", VERIFY, "certificate.json")  # Python without what is installed
+    assert answer.returncode == 1 and answer.stderr.count("\n") == 1 and "pip install python-flint" in answer.stderr, answer
+
+
 @pytest.mark.parametrize("entry", ["arm/puma560", "chain/crcr", "loop/rrsrr", "overconstrained/bennett_a",
                                    "overconstrained/bennett_broken", "as_built", "arm/chain_cc", "overconstrained/dietmaier_a-motion",
                                    "chain/structure_5r", "chain/ccc", *NOTHING_COUNTED])
