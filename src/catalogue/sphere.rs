@@ -221,6 +221,7 @@ fn joints(scope: &Scope<'_>, linkage: &mut SphereLinkage, node: &Node) -> Result
             point(scope, linkage, of[0], &points[0], item.line)?,
             point(scope, linkage, of[1], &points[1], item.line)?,
         ];
+        let at = matched(scope, at);
         let zero = match table.get("zero") {
             None => references(&at),
             Some(node) => {
@@ -248,6 +249,38 @@ pub(super) fn references(at: &[Direction; 2]) -> [Direction; 2] {
     let factor = Rational::from(2) * dot(&about, &first) / dot(&about, &about);
     let second = std::array::from_fn(|k| Rational::from(&factor * &about[k]) - &first[k]);
     [first, second]
+}
+
+/// Directions of a joint are taken to differ in length by their rounding if they do so by less than this part: three digits are typed at least.
+const ROUNDED: (u32, u32) = (1, 500);
+
+/// The directions of a joint in its two bodies: where their lengths differ by no more than the rounding of cosines and sines, as directions of
+/// length 1 that are near them.
+fn matched(scope: &Scope<'_>, at: [Direction; 2]) -> [Direction; 2] {
+    let [a, b] = at.each_ref().map(|at| dot(at, at));
+    let apart = Rational::from(&a - &b).abs();
+    if apart == 0 || apart > (a + b) * Rational::from(ROUNDED) {
+        return at;
+    }
+    scope.note(false);
+    at.each_ref().map(unit_near)
+}
+
+/// Returns a direction of length 1, by a stereographic projection that is rounded to 56 bits: finer than the f64
+/// in which answers are.
+fn unit_near(direction: &Direction) -> Direction {
+    let (length, _) = root(&dot(direction, direction));
+    let sizes = direction.each_ref().map(|c| Rational::from(c.abs_ref()));
+    let pole = (0..3).max_by(|a, b| sizes[*a].cmp(&sizes[*b])).unwrap_or(0);
+    let below = length + &sizes[pole];
+    let scale = Rational::from(1_u64 << 56);
+    let image: Direction = direction.each_ref().map(|c| (Rational::from(c / &below) * &scale).round() / &scale);
+    let square = dot(&image, &image) - Rational::from(&image[pole] * &image[pole]);
+    let above = Rational::from(&square + 1);
+    std::array::from_fn(|k| {
+        let part = if k == pole { Rational::from(1 - &square) } else { Rational::from(&image[k] * 2_u32) };
+        if k == pole && direction[k] < 0 { -part / &above } else { part / &above }
+    })
 }
 
 /// Returns the coordinate axis that is least along a direction.
@@ -280,7 +313,8 @@ fn shared(scope: &Scope<'_>, linkage: &mut SphereLinkage, line: usize) -> Result
             }
             number += 1;
             let of = [with[0], *other];
-            let at = [point(scope, linkage, of[0], name, line)?, point(scope, linkage, of[1], name, line)?];
+            let at =
+                matched(scope, [point(scope, linkage, of[0], name, line)?, point(scope, linkage, of[1], name, line)?]);
             let zero = references(&at);
             push(scope, linkage, SphereJoint { name: own, of, at, zero, line })?;
         }

@@ -4,7 +4,7 @@
 use looproot::internal::catalogue::{Any, Format, Options, SphereFile, any_from_text, builtin_any};
 use looproot::internal::derivation::{sphere_trace, sphere_with_symbols, surface, transfer};
 use looproot::internal::linkage::grashof::spherical;
-use looproot::internal::linkage::sphere::solve;
+use looproot::internal::linkage::sphere::{System, solve};
 use looproot::internal::verdict::{Proof, Status};
 use looproot_algebra::int::Int;
 use looproot_algebra::number::nearest_f64;
@@ -264,5 +264,83 @@ fn relations_with_symbols_hold_at_all_assemblies() {
             compared += 1;
         }
         assert!(compared >= 2, "{name}");
+    }
+}
+
+#[test]
+fn directions_from_cosines_are_of_length_1() {
+    // Arcs of 70, 30, 60 and 50 degrees: the directions of a joint in its two bodies do not have quite the same length.
+    let arc = |degrees: f64| [degrees.to_radians().cos(), degrees.to_radians().sin()];
+    let point = |name: &str, degrees: f64| format!("{name} = [{}, {}, 0]", arc(degrees)[0], arc(degrees)[1]);
+    let body = |name: &str, ends: [&str; 2], degrees: f64| {
+        format!("{name} = {{ {}, {} }}\n", point(ends[0], 0.0), point(ends[1], degrees))
+    };
+    let text = format!(
+        "[mechanism]\nkind = \"linkage\"\nspace = \"sphere\"\nground = \"f\"\njoints = \"shared points\"\n[mechanism.bodies]\n\
+         {}{}{}{}[[input]]\njoint = \"A\"\ntan_half = \"1/2\"\n",
+        body("f", ["A", "D"], 70.0),
+        body("c", ["A", "B"], 30.0),
+        body("k", ["B", "C"], 60.0),
+        body("r", ["D", "C"], 50.0)
+    );
+    let file = read(&text);
+    let answer = solve(&file.linkage, &file.cases[0].given, file.cases[0].exact && file.exact).unwrap();
+    assert_eq!((answer.verdict.status, answer.verdict.real), (Status::Complete, 2));
+    assert_ne!(answer.verdict.proof, Proof::Proved);
+    for mode in &answer.modes {
+        let place = |body: usize, degrees: f64| {
+            let [x, y] = arc(degrees);
+            let turn = &mode.bodies[body];
+            [0, 1, 2].map(|i: usize| (turn[i][0] * x + turn[i][1] * y).re)
+        };
+        let [b, c] = [place(2, 0.0), place(2, 60.0)];
+        let cosine = |v: [f64; 3], w: [f64; 3]| v.iter().zip(w).map(|(x, y)| x * y).sum::<f64>();
+        let d = [arc(70.0)[0], arc(70.0)[1], 0.0];
+        assert!((cosine(c, d) - arc(50.0)[0]).abs() < 1e-14);
+        assert!((cosine(b, [1.0, 0.0, 0.0]) - arc(30.0)[0]).abs() < 1e-14);
+    }
+}
+
+/// A six-bar of which the frame b0 is in no dyad with the bodies that the input holds together.
+const SIX_BAR: &str = r#"
+[mechanism]
+kind = "linkage"
+space = "sphere"
+ground = "b0"
+joints = [
+    { name = "j0", type = "R", of = ["b3", "b1"] },
+    { name = "j1", type = "R", of = ["b2", "b1"] },
+    { name = "j2", type = "R", of = ["b5", "b4"] },
+    { name = "j3", type = "R", of = ["b4", "b3"] },
+    { name = "j4", type = "R", of = ["b5", "b1"], zero = [["17/3", "8/3", "-5/3"], ["19/11", "25/11", "-64/11"]] },
+    { name = "j5", type = "R", of = ["b0", "b4"] },
+    { name = "j6", type = "R", of = ["b2", "b0"] },
+]
+[mechanism.bodies]
+b0 = { j5 = [3, 1, 3], j6 = [1, -2, 2] }
+b1 = { j0 = ["-25/11", "47/11", "-42/11"], j1 = ["6/11", "-61/11", "29/11"], j4 = ["47/11", "8/11", "53/11"] }
+b2 = { j1 = [-5, "6/5", "17/5"], j6 = [2, -2, 1] }
+b3 = { j0 = ["29/11", "-29/11", "-54/11"], j3 = ["53/11", "-75/11", "6/11"] }
+b4 = { j2 = ["-20/9", "-16/9", "44/9"], j3 = ["-61/9", "43/9", "10/9"], j5 = ["-7/9", "-11/9", "37/9"] }
+b5 = { j2 = [4, -4, 0], j4 = ["-32/9", "-23/9", "-43/9"] }
+[[input]]
+given = { j4 = { tan_half = 0 } }
+"#;
+
+#[test]
+fn equations_are_written_in_the_axes_of_the_body_in_which_they_are_smallest() {
+    let file = read(SIX_BAR);
+    let (linkage, given) = (&file.linkage, &file.cases[0].given);
+    let [of, least] =
+        [System::of(linkage, given), System::least(linkage, given)].map(|system| system.unwrap().unknowns);
+    assert_eq!([of, least], [9, 6]);
+    let answer = solve(linkage, given, true).unwrap();
+    assert_eq!((answer.verdict.status, answer.verdict.proof), (Status::Complete, Proof::Proved));
+    assert_eq!((answer.verdict.complex, answer.verdict.real), (4, 4));
+    for mode in &answer.modes {
+        assert!(mode.residual < 1e-14 && mode.joints[4].re.abs() < 1e-14);
+        for (i, row) in mode.bodies[linkage.ground].iter().enumerate() {
+            assert!(row.iter().enumerate().all(|(j, z)| z.re == f64::from(u8::from(i == j))));
+        }
     }
 }

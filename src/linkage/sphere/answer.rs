@@ -1,6 +1,6 @@
 //! The answer to one case of a linkage on the sphere.
 
-use super::equations::{Cluster, System};
+use super::equations::{Cluster, System, identity};
 use crate::algebra::disc::Disc;
 use crate::algebra::groebner::{Basis, Equation};
 use crate::algebra::number::nearest_f64;
@@ -80,7 +80,7 @@ pub struct SphereAnswer {
 /// Where inputs are too few or hold what others hold, and for linkages that are beyond what is implemented.
 pub fn solve(linkage: &SphereLinkage, given: &[SphereGiven], exact: bool) -> Result<SphereAnswer> {
     let start = Instant::now();
-    let system = System::of(linkage, given)?;
+    let system = System::least(linkage, given)?;
     let too_much =
         || Error::Unsupported("the Gröbner basis of this linkage takes more work than is allowed".to_owned());
     let basis = Basis::of(system.unknowns, &system.equations, EFFORT).ok_or_else(too_much)?;
@@ -199,6 +199,10 @@ fn mode(
     let mut bodies: Vec<Matrix<Coordinate>> =
         vec![std::array::from_fn(|_| std::array::from_fn(|_| zero())); linkage.bodies.len()];
     let mut radius = f64::EPSILON;
+    let exactly = |own: &Matrix<Rational>| {
+        own.each_ref().map(|row| row.each_ref().map(|c| Disc::from_rational(c).unwrap_or_else(Disc::zero)))
+    };
+    let mut places: Vec<(usize, Matrix<Disc>)> = Vec::with_capacity(linkage.bodies.len());
     for (k, cluster) in system.clusters.iter().enumerate() {
         let turn: Matrix<Disc> = if k == 0 {
             std::array::from_fn(|i| std::array::from_fn(|j| if i == j { Disc::one() } else { Disc::zero() }))
@@ -206,16 +210,17 @@ fn mode(
             let [first, second] = cluster.base.map(|place| &axes[cluster.joints[place].0]);
             rotation(cluster, [first, second])
         };
-        for (body, own) in &cluster.bodies {
-            let own =
-                own.each_ref().map(|row| row.each_ref().map(|c| Disc::from_rational(c).unwrap_or_else(Disc::zero)));
-            let place = product(&turn, &own);
-            for (i, row) in place.iter().enumerate() {
-                for (j, entry) in row.iter().enumerate() {
-                    radius = radius.max(entry.radius().to_f64());
-                    let z = middle(entry);
-                    bodies[*body][i][j] = if real { Complex::new(z.re + 0.0, 0.0) } else { z };
-                }
+        places.extend(cluster.bodies.iter().map(|(body, own)| (*body, product(&turn, &exactly(own)))));
+    }
+    // From the axes of the body that rests in the equations to those of the ground.
+    let ground = places.iter().find(|(body, _)| *body == linkage.ground).map(|(_, place)| transpose(place))?;
+    for (body, place) in &places {
+        let place = if *body == linkage.ground { exactly(&identity()) } else { product(&ground, place) };
+        for (i, row) in place.iter().enumerate() {
+            for (j, entry) in row.iter().enumerate() {
+                radius = radius.max(entry.radius().to_f64());
+                let z = middle(entry);
+                bodies[*body][i][j] = if real { Complex::new(z.re + 0.0, 0.0) } else { z };
             }
         }
     }

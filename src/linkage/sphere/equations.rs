@@ -23,7 +23,7 @@ pub struct Cluster {
 /// The equations.
 #[derive(Clone, Debug)]
 pub struct System {
-    /// The clusters, that of the ground first; its coordinates are those of the ground.
+    /// The clusters; the coordinates of the first are those of the body that rests.
     pub clusters: Vec<Cluster>,
     /// The axis of every joint, a polynomial in the unknowns; zero for joints within a cluster.
     pub axes: Vec<Vector<Equation>>,
@@ -34,7 +34,7 @@ pub struct System {
 }
 
 /// The identity.
-fn identity() -> Matrix<Rational> {
+pub(super) fn identity() -> Matrix<Rational> {
     std::array::from_fn(|i| std::array::from_fn(|j| Rational::from(u8::from(i == j))))
 }
 
@@ -62,10 +62,10 @@ fn combined(coefficients: &[Rational; 3], one: &Vector<Equation>, two: &Vector<E
     std::array::from_fn(|k| parts[0][k].add(&parts[1][k]).add(&parts[2][k]))
 }
 
-/// The clusters that what is given makes, that of the ground first, without bases.
-fn clusters(linkage: &SphereLinkage, given: &[SphereGiven]) -> Result<Vec<Cluster>> {
-    let mut order = vec![linkage.ground];
-    order.extend((0..linkage.bodies.len()).filter(|body| *body != linkage.ground));
+/// The clusters that what is given makes, that of the body `rest` first, without bases.
+fn clusters(linkage: &SphereLinkage, given: &[SphereGiven], rest: usize) -> Result<Vec<Cluster>> {
+    let mut order = vec![rest];
+    order.extend((0..linkage.bodies.len()).filter(|body| *body != rest));
     let single = |body: &usize| Cluster { bodies: vec![(*body, identity())], joints: Vec::new(), base: [0, 1] };
     let mut list: Vec<Cluster> = order.iter().map(single).collect();
     for one in given {
@@ -86,7 +86,7 @@ fn clusters(linkage: &SphereLinkage, given: &[SphereGiven]) -> Result<Vec<Cluste
         }
         // From the cluster of the second body to that of the first.
         let across = product(&product(&first, &one.rotation), &transpose(&second));
-        // The ground stays in front, and its coordinates stay its own.
+        // The body that rests stays in front, and its coordinates stay its own.
         let (kept, gone, across) = if b == 0 { (b, a, transpose(&across)) } else { (a, b, across) };
         let moved = std::mem::take(&mut list[gone].bodies);
         let moved = moved.into_iter().map(|(body, rotation)| (body, product(&across, &rotation)));
@@ -103,7 +103,27 @@ impl System {
     /// For inputs that leave freedoms or hold what others hold, for bodies whose axes are all parallel, and for more unknowns
     /// than a basis is made of.
     pub fn of(linkage: &SphereLinkage, given: &[SphereGiven]) -> Result<Self> {
-        let mut clusters = clusters(linkage, given)?;
+        Self::with_rest(linkage, given, linkage.ground)
+    }
+
+    /// Writes down the equations in the axes of the body in which they have the fewest unknowns and the lowest degrees.
+    ///
+    /// # Errors
+    /// As [`Self::of`].
+    pub fn least(linkage: &SphereLinkage, given: &[SphereGiven]) -> Result<Self> {
+        let in_ground = Self::of(linkage, given);
+        let others = (0..linkage.bodies.len()).filter(|body| *body != linkage.ground);
+        let others = others.filter_map(|rest| Self::with_rest(linkage, given, rest).ok());
+        let weight = |system: &Self| (system.unknowns, system.equations.iter().map(Equation::degree).sum::<usize>());
+        match (others.min_by_key(weight), in_ground) {
+            (Some(other), Ok(ground)) if weight(&other) < weight(&ground) => Ok(other),
+            (Some(other), Err(Error::Unsupported(_))) => Ok(other),
+            (_, in_ground) => in_ground,
+        }
+    }
+
+    fn with_rest(linkage: &SphereLinkage, given: &[SphereGiven], rest: usize) -> Result<Self> {
+        let mut clusters = clusters(linkage, given, rest)?;
         let mut merged = Merged::new(linkage.bodies.len());
         for cluster in &clusters {
             for (body, _) in &cluster.bodies[1..] {
