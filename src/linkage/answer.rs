@@ -2,6 +2,7 @@
 
 use super::assembly::{Asked, Assemblies, Family, FamilyKind, Route, Solution, assemblies, assemblies_within};
 use super::isotropic::{Value, middle};
+use super::rates::{movable, resting};
 use super::state::{Number, State, number};
 use crate::algebra::drawn;
 use crate::algebra::ring::Ring;
@@ -15,7 +16,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// What is not known where a group moves on which others stand.
-const UNFOLLOWED: &str = "a group moves by itself, and groups that stand on it were not followed along that motion";
+const UNFOLLOWED: &str = "a group moves by itself, and groups that stand on it were not found to close at the places of that motion that were tried";
 
 /// A joint value or a coordinate, real of a real assembly.
 pub type Coordinate = Complex<f64>;
@@ -120,8 +121,13 @@ pub fn solve_asked(linkage: &Linkage, given: &[Given], accuracy: Accuracy, asked
         b.real.cmp(&a.real).then_with(angles)
     });
     let families = found.curves.iter().filter(|family| is_one(&family.state));
-    let families =
-        families.map(|family| LinkageFamily::at(linkage, &family.state, family.dimension, family.joints.clone()));
+    let families = families.map(|family| {
+        let mut one = LinkageFamily::at(linkage, &family.state, family.dimension, family.joints.clone());
+        if family.kind == FamilyKind::Followed {
+            one.joints = movable(linkage, given, &resting(&one.sample));
+        }
+        one
+    });
     let families: Vec<LinkageFamily> = families.collect();
     let verdict = verdict(&found, &modes, &families, exact);
     let groups = found.groups.iter().map(|group| LinkageGroup {
@@ -151,7 +157,7 @@ fn route(group: &Solution) -> String {
 }
 
 /// Whether all bodies are one cluster.
-fn is_one(state: &State) -> bool {
+pub(super) fn is_one(state: &State) -> bool {
     state.bodies.iter().all(|body| body.0 == state.bodies[0].0)
 }
 
@@ -178,6 +184,17 @@ fn because(has: &dyn Fn(fn(&Route) -> bool) -> bool) -> String {
 
 /// Whether a motion of the whole linkage is proved, and what is known of it.
 fn motion(family: &Family, found: &Assemblies) -> (bool, String) {
+    if family.kind == FamilyKind::Followed {
+        let groups = if family.is_proved {
+            "those that stand on it have a regular assembly at a place of that motion, which goes on along it"
+        } else {
+            "those that stand on it close at a place of that motion"
+        };
+        let reason = format!(
+            "a group moves by itself, and {groups}; isolated assemblies and other motions beside it are not all looked for"
+        );
+        return (family.is_proved && family.dimension == 1, reason);
+    }
     if family.kind != FamilyKind::Other {
         let list = match &found.doubt {
             Some(doubt) => format!("the isolated ones may not be all: {doubt}"),
@@ -194,8 +211,13 @@ fn motion(family: &Family, found: &Assemblies) -> (bool, String) {
     };
     let reason = format!(
         "the assemblies of a group form a set of dimension {}, complex ones counted, by a Gröbner basis over the rationals; {real}; \
-         isolated assemblies beside it are not all looked for",
-        family.dimension
+         {}",
+        family.dimension,
+        if family.with_regular {
+            "all regular assemblies of the group, which are isolated, are listed beside it; multiple ones are not looked for"
+        } else {
+            "isolated assemblies beside it are not all looked for"
+        }
     );
     // That the real ones have this dimension too is not shown beyond curves.
     if family.dimension > 1 {
@@ -234,11 +256,11 @@ fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily]
     };
     let whole: Vec<&Family> = moving.iter().copied().filter(|family| is_one(&family.state)).collect();
     // Of a motion of several joints isolated assemblies beside it are not all known, whatever turns freely elsewhere.
-    let first = whole.iter().find(|family| family.kind == FamilyKind::Other).or(whole.first());
+    let is_several = |family: &&&Family| matches!(family.kind, FamilyKind::Other | FamilyKind::Followed);
+    let first = whole.iter().find(is_several).or(whole.first());
     let (status, proof, code, reason) = if let Some(first) = first {
         let (is_first, reason) = motion(first, found);
-        let is_proved =
-            is_first && whole.iter().all(|family| family.kind != FamilyKind::Other || motion(family, found).0);
+        let is_proved = is_first && whole.iter().filter(is_several).all(|family| motion(family, found).0);
         // Along the motion of another group there may be more freedoms.
         let is_all = moving.iter().all(|family| is_one(&family.state));
         let reason = if is_all { reason } else { format!("{reason}; {UNFOLLOWED}") };

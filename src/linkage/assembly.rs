@@ -4,9 +4,10 @@ use super::boxes::{LONG, RealAssemblies, SHORT, real_assemblies};
 use super::equations::{Closure, Equations};
 use super::exact_group::{Decided, decided};
 use super::fibres::by_fibres;
+use super::followed::{United, follow};
 use super::geared_groups::geared_groups;
 use super::gears::{geared, is_train, teeth};
-use super::general::{general, least_rows};
+use super::general::{general, least_rows, with_choices};
 use super::groups::{Group, Groups, MOST_CLUSTERS, MOST_IN_BOXES, Merged};
 use super::isotropic::{Isotropic, Value};
 use super::krawczyk::{Proved, conjugate};
@@ -24,7 +25,7 @@ use std::sync::atomic::AtomicBool;
 /// Towers of more generators are not built: the work doubles with each of them.
 const DEEP: usize = 5;
 /// Towers that hold i alone, and square roots that are no new ones.
-const SHALLOW: usize = 1;
+pub(super) const SHALLOW: usize = 1;
 /// The reason given for an assembly that is neither proved real nor proved complex.
 const UNDECIDED: &str = "an assembly is neither proved real nor proved complex";
 /// Most branches that are listed.
@@ -33,6 +34,8 @@ const MOST_BRANCHES: usize = 1 << 14;
 /// Rows of a pencil beyond which a group is solved by boxes where only real assemblies are asked for: 96 rows (11 links) took 2 s, 224 rows (13 links)
 /// 25 s, and boxes less than 1 s for both.
 const MOST_PENCIL_ROWS: usize = 100;
+/// Choices of a hidden class that are tried for the assemblies beside a motion: structures of nine links take a fifth of a second for each.
+const MOST_CHOICES: usize = 12;
 /// Cycles up to which no pencil has more rows: C(8, 4) = 70.
 const FEW_CYCLES: usize = 4;
 /// Cycles up to which pencils are made to see how large they are: C(12, 6) = 924 rows at most.
@@ -86,6 +89,8 @@ pub enum FamilyKind {
     Spin,
     /// Another one, beside which there may be isolated assemblies and more families.
     Other,
+    /// A motion of one group on which others stand, at a place where these have a regular assembly.
+    Followed,
 }
 
 /// Assemblies of a group that are infinitely many.
@@ -101,6 +106,16 @@ pub struct Family {
     pub kind: FamilyKind,
     /// Whether real ones are proved to form a curve, if the state is real.
     pub is_proved: bool,
+    /// More of them, at which groups are tried that stand on this one.
+    pub samples: Vec<State>,
+    /// Whether all regular assemblies of the group are listed.
+    pub with_regular: bool,
+}
+
+impl Family {
+    fn new(state: State, joints: Vec<usize>, dimension: usize, kind: FamilyKind) -> Self {
+        Self { state, joints, dimension, kind, is_proved: true, samples: Vec::new(), with_regular: true }
+    }
 }
 
 /// Assemblies of all bodies.
@@ -246,10 +261,10 @@ type Placing = fn(&Linkage, &Given) -> Option<Place>;
 fn placed(linkage: &Linkage, given: &[Given], place: Placing, asked: Asked<'_>) -> Result<Assemblies> {
     let groups = groups_of(linkage, given)?;
     let start = started(linkage, given, place)?;
-    let shallow = attempt(linkage, &start, &groups, SHALLOW, asked)?;
+    let shallow = attempt(linkage, &start, &groups.list, SHALLOW, true, asked)?;
     // Square roots are kept as such only where a disc about zero decides nothing.
     if shallow.doubt.is_some() && groups.list.iter().any(|group| group.clusters.len() <= 3) {
-        let deep = attempt(linkage, &start, &groups, DEEP, asked)?;
+        let deep = attempt(linkage, &start, &groups.list, DEEP, true, asked)?;
         if deep.doubt.is_none() {
             return Ok(deep);
         }
@@ -300,7 +315,15 @@ fn started(linkage: &Linkage, given: &[Given], place: Placing) -> Result<State> 
     Ok(start)
 }
 
-fn attempt(linkage: &Linkage, start: &State, groups: &Groups, highest: usize, asked: Asked<'_>) -> Result<Assemblies> {
+/// Solves groups one after the other. `follows` says whether groups that stand on one that moves are solved, too.
+pub(super) fn attempt(
+    linkage: &Linkage,
+    start: &State,
+    groups: &[Group],
+    highest: usize,
+    follows: bool,
+    asked: Asked<'_>,
+) -> Result<Assemblies> {
     let mut start = start.clone();
     start.top.highest = highest;
     let mut found = Assemblies {
@@ -313,7 +336,9 @@ fn attempt(linkage: &Linkage, start: &State, groups: &Groups, highest: usize, as
         gap: None,
     };
     let mut branches = vec![start];
-    for group in &groups.list {
+    let mut united = United::default();
+    for (number, group) in groups.iter().enumerate() {
+        let later = if follows { &groups[number + 1..] } else { &[] };
         let mut names: Vec<usize> = Vec::new();
         let mut next = Vec::new();
         let mut solution =
@@ -328,6 +353,7 @@ fn attempt(linkage: &Linkage, start: &State, groups: &Groups, highest: usize, as
                 return Err(Error::Unsupported("a group with gears".to_owned()));
             };
             let at = Branch { linkage, closure: &closure, group, state };
+            let (known, moving) = (next.len(), found.curves.len());
             if group.gears.is_empty() {
                 branch(at, &mut solution, &mut next, &mut found, asked);
             } else {
@@ -336,24 +362,36 @@ fn attempt(linkage: &Linkage, start: &State, groups: &Groups, highest: usize, as
                 let solved = geared(linkage, &closure, group, state);
                 add(solved, at, &mut solution, &mut next, &mut found);
             }
+            let is_open = !later.is_empty() && !follow(linkage, &mut found.curves[moving..], later, asked);
+            if is_open && united.solve(at, later, moving, &mut found) {
+                next.truncate(known);
+            }
+        }
+        branches = next;
+        if branches.is_empty()
+            && let Some(one) = united.solution.take()
+        {
+            found.groups.push(one);
+            break;
         }
         found.groups.push(solution);
-        branches = next;
         if branches.len() > MOST_BRANCHES {
             return Err(Error::Unsupported(format!("more than {MOST_BRANCHES} assemblies are not listed")));
         }
     }
+    found.groups.extend(united.solution);
     found.modes = branches;
+    found.modes.extend(united.modes);
     Ok(found)
 }
 
 /// A group in one branch of the earlier ones.
 #[derive(Clone, Copy)]
-struct Branch<'a> {
-    linkage: &'a Linkage,
-    closure: &'a Closure,
-    group: &'a Group,
-    state: &'a State,
+pub(super) struct Branch<'a> {
+    pub linkage: &'a Linkage,
+    pub closure: &'a Closure,
+    pub group: &'a Group,
+    pub state: &'a State,
 }
 
 /// Solves a group in one branch.
@@ -390,7 +428,12 @@ fn branch(at: Branch<'_>, solution: &mut Solution, next: &mut Vec<State>, found:
         found.map(Decided::Finite)
     };
     if !is_complete && let Some(decided) = over_multiple_roots().or_else(|| decided(equations)) {
-        by_basis(decided, &general.solutions, at, solution, next, found);
+        let isolated = match &decided {
+            // Where not all regular assemblies are known, more choices lead to some.
+            Decided::Moving(moving) if moving.regular.is_none() => with_choices(equations, MOST_CHOICES).solutions,
+            _ => general.solutions,
+        };
+        by_basis(decided, &isolated, at, solution, next, found);
         return;
     }
     // What leaves the complex list in doubt, as multiple roots do, need not be near a real assembly.
@@ -421,7 +464,7 @@ fn add_proved(solutions: &[Proved], at: Branch<'_>, next: &mut Vec<State>, found
 }
 
 /// Adds what a Gröbner basis says of a group in one branch. `isolated` are the assemblies that are known by themselves.
-fn by_basis(
+pub(super) fn by_basis(
     decided: Decided,
     isolated: &[Proved],
     at: Branch<'_>,
@@ -445,14 +488,20 @@ fn by_basis(
                 own.real = state.real && real;
                 let joints = closure.moving_joints(linkage, group, state, &rates);
                 let (dimension, kind) = (spinning.len(), FamilyKind::Spin);
-                found.curves.push(Family { state: own, joints, dimension, kind, is_proved: true });
+                found.curves.push(Family::new(own, joints, dimension, kind));
             }
         }
         Decided::Moving(moving) => {
-            solution.count = solution.count.max(isolated.len());
-            let known = isolated.iter().filter_map(|one| Some((one, one.real?)));
-            next.extend(known.map(|(one, real)| assembled(closure, state, one, state.real && real)));
-            let Moving { dimension, sample, is_proved } = *moving;
+            let Moving { dimension, sample, is_proved, regular } = *moving;
+            let with_regular = regular.is_some();
+            if let Some(regular) = regular {
+                let (roots, real): (Vec<Root>, Vec<bool>) = regular.into_iter().unzip();
+                add_roots(&roots, real.into_iter().map(Some), at, solution, next, found);
+            } else {
+                solution.count = solution.count.max(isolated.len());
+                let known = isolated.iter().filter_map(|one| Some((one, one.real?)));
+                next.extend(known.map(|(one, real)| assembled(closure, state, one, state.real && real)));
+            }
             let Some((root, rates)) = sample else {
                 let bodies = group.clusters.len();
                 found.doubt.get_or_insert_with(|| {
@@ -466,7 +515,8 @@ fn by_basis(
             let mut own = closure.assembled(state, &root.turns, &root.shifts);
             own.real = state.real;
             let joints = closure.moving_joints(linkage, group, state, &rates);
-            found.curves.push(Family { state: own, joints, dimension, kind: FamilyKind::Other, is_proved });
+            let family = Family::new(own, joints, dimension, FamilyKind::Other);
+            found.curves.push(Family { is_proved, with_regular, ..family });
         }
     }
 }
@@ -529,14 +579,16 @@ fn add(solved: Solved, at: Branch<'_>, solution: &mut Solution, next: &mut Vec<S
             found.doubt.get_or_insert(reason);
         }
         Solved::Curve(roots) => {
-            for root in &roots {
-                let state = closure.assembled(state, &root.turns, &root.shifts);
-                let joints = group.joints.clone();
-                // Where all three joints coincide, both links turn.
-                let is_point = closure.equations.classes == 3 && closure.equations.cycles[0].iter().all(Ring::is_zero);
-                let dimension = if is_point { 2 } else { 1 };
-                found.curves.push(Family { state, joints, dimension, kind: FamilyKind::Dyad, is_proved: true });
+            let mut samples: Vec<State> =
+                roots.iter().map(|root| closure.assembled(state, &root.turns, &root.shifts)).collect();
+            if samples.is_empty() {
+                return;
             }
+            // Where all three joints coincide, both links turn.
+            let is_point = closure.equations.classes == 3 && closure.equations.cycles[0].iter().all(Ring::is_zero);
+            let dimension = if is_point { 2 } else { 1 };
+            let family = Family::new(samples.remove(0), group.joints.clone(), dimension, FamilyKind::Dyad);
+            found.curves.push(Family { samples, ..family });
         }
         Solved::Roots(roots) => {
             let real = realness(&roots);

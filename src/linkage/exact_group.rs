@@ -14,6 +14,7 @@ use super::real_system::{Form, RealSystem};
 use super::state::{Number, number, real};
 use crate::algebra::disc::Disc;
 use crate::algebra::groebner::{Basis, Equation};
+use crate::algebra::minors::determinant_by_minors;
 use crate::algebra::ring::Ring;
 use crate::kinematics::linkage::Gaussian;
 use rug::{Float, Rational};
@@ -40,8 +41,51 @@ pub(super) fn decided(equations: &Equations<Number>) -> Option<Decided> {
         None => Some(Decided::Finite(Vec::new())),
         Some(0) if system.spinning.is_empty() => Some(Decided::Finite(solutions(&system, &basis)?)),
         Some(0) => Some(Decided::Spinning(solutions(&system, &basis)?, system.spinning)),
-        Some(dimension) => Some(Decided::Moving(Box::new(moving(&system, dimension)))),
+        Some(dimension) => {
+            Some(Decided::Moving(Box::new(Moving { regular: regular(&system), ..moving(&system, dimension) })))
+        }
     }
+}
+
+/// Unknowns of a group whose regular assemblies are all looked for: the determinant of 6 rows has the degree 6, with up to 924 terms.
+const MOST_IN_DETERMINANT: usize = 6;
+
+/// All regular assemblies of a group, which are isolated, and whether each is real; `None` where that takes too much work. They are finitely
+/// many: the determinant of the derivatives has an inverse there.
+fn regular(system: &RealSystem) -> Option<Vec<(Root, bool)>> {
+    let unknowns = system.unknowns;
+    if unknowns > MOST_IN_DETERMINANT || !system.spinning.is_empty() {
+        return None;
+    }
+    let at: Vec<Equation> = (0..unknowns).map(Equation::variable).collect();
+    let determinant = determinant_by_minors(&twice_derivatives(system, &at)?);
+    let inverse = Equation::variable(unknowns);
+    let mut system = RealSystem { unknowns: unknowns + 1, ..system.clone() };
+    system.equations.push(inverse.mul(&determinant).sub(&Equation::one()));
+    let basis = Basis::of(system.unknowns, &system.equations, EFFORT)?;
+    match basis.dimension() {
+        None => Some(Vec::new()),
+        Some(0) => solutions(&system, &basis),
+        Some(_) => None,
+    }
+}
+
+/// Twice the derivatives of as many equations as unknowns, of degree 2 at most, at a point.
+pub(super) fn twice_derivatives<R: Ring>(system: &RealSystem, at: &[R]) -> Option<Vec<Vec<R>>> {
+    if system.equations.len() != system.unknowns || system.equations.iter().any(|equation| equation.degree() > 2) {
+        return None;
+    }
+    // The difference of two values, one to either side.
+    let derivative = |equation: &Equation, k: usize| {
+        let value = |step: &R| {
+            let mut moved = at.to_vec();
+            moved[k] = moved[k].add(step);
+            equation.evaluate(&moved)
+        };
+        value(&R::one()).sub(&value(&R::one().neg()))
+    };
+    let row = |equation: &Equation| (0..system.unknowns).map(|k| derivative(equation, k)).collect();
+    Some(system.equations.iter().map(row).collect())
 }
 
 /// All members of a finite set of assemblies, and whether each is real; `None` where they were not told apart.

@@ -6,7 +6,7 @@
 //! links are decided whose own basis takes minutes. The theorem is in `docs/exact.md`.
 
 use super::equations::Equations;
-use super::exact_group::{EFFORT, exactly, within};
+use super::exact_group::{EFFORT, exactly, twice_derivatives, within};
 use super::general::Choice;
 use super::isotropic::Value;
 use super::krawczyk::Proved;
@@ -109,21 +109,7 @@ fn fibre(system: &RealSystem, choice: &Choice, x: &Gaussian) -> Option<Vec<(Root
 
 /// Whether the derivatives of the equations are proved to be independent at a point, which is then a simple solution.
 fn is_regular(system: &RealSystem, at: &[Disc]) -> bool {
-    if system.equations.len() != system.unknowns {
-        return false;
-    }
-    // The difference of two values of an equation of degree 2, one to either side, is twice the derivative.
-    let derivative = |equation: &Equation, k: usize| {
-        let value = |step: &Disc| {
-            let mut moved = at.to_vec();
-            moved[k] = moved[k].add(step);
-            equation.evaluate(&moved)
-        };
-        value(&Disc::one()).sub(&value(&Disc::one().neg()))
-    };
-    let row = |equation: &Equation| (0..system.unknowns).map(|k| derivative(equation, k)).collect();
-    let rows: Vec<Vec<Disc>> = system.equations.iter().map(row).collect();
-    determinant_by_minors(&rows).is_not_zero()
+    twice_derivatives(system, at).is_some_and(|rows| determinant_by_minors(&rows).is_not_zero())
 }
 
 /// An equation of degree 2 at most about a point that fulfils it.

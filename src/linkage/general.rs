@@ -119,6 +119,11 @@ impl Choice {
 /// Solves a group.
 #[must_use]
 pub fn general(equations: &Equations<Number>) -> Found {
+    with_choices(equations, TRIES)
+}
+
+/// Solves a group by at most so many choices of a hidden class.
+pub(super) fn with_choices(equations: &Equations<Number>, most: usize) -> Found {
     let known = equations.exact();
     let is_rounded = known.is_none();
     let Some(exact) = known.or_else(|| equations.rounded()) else {
@@ -131,7 +136,7 @@ pub fn general(equations: &Equations<Number>) -> Found {
     // Roots of one choice that lead nowhere may be no roots of another, or lead on from there.
     // Where a vector leaves rotations open, two assemblies may have the same one.
     let choices = ranked(&exact).into_iter().filter_map(|(rest, hidden)| choice(&exact, rest, hidden));
-    for choice in choices.filter(|choice| choice.tells(&exact)).take(TRIES) {
+    for choice in choices.filter(|choice| choice.tells(&exact)).take(most) {
         let (rest, hidden) = (choice.rest, choice.hidden);
         extend(&mut found, equations, &approximate, &choice);
         if found.most == Some(found.solutions.len()) {

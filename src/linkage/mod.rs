@@ -17,6 +17,7 @@ pub mod dynamics;
 pub mod equations;
 mod exact_group;
 mod fibres;
+mod followed;
 pub mod geared_groups;
 pub mod gears;
 pub mod general;

@@ -2,7 +2,8 @@
 
 use super::equations::Equations;
 use super::isotropic::{Isotropic, Value};
-use super::state::Number;
+use super::polynomial::turned;
+use super::state::{Number, number};
 use super::tower::Surd;
 use crate::algebra::ring::Ring;
 use rug::Rational;
@@ -23,7 +24,7 @@ pub struct Root {
 pub enum Solved {
     /// All of them.
     Roots(Vec<Root>),
-    /// A curve of solutions, on which these lie.
+    /// A curve of solutions, on which all these lie.
     Curve(Vec<Root>),
     /// The question that is left undecided.
     Undecided(String),
@@ -47,6 +48,11 @@ fn scalar(value: &Value) -> Number {
 fn rotation(z: Value) -> Option<Number> {
     let w = z.inverse()?;
     Some(Isotropic { z, w })
+}
+
+/// Rotations at which a curve is looked at: the first of them may be a special one, at which what stands on it does not close.
+fn samples() -> [Number; 3] {
+    [0, 2, 5].map(|k| number(&turned(k).z))
 }
 
 fn undecided(what: &str) -> Solved {
@@ -143,18 +149,24 @@ fn coincident(c: &[Number], zero: [bool; 3]) -> Solved {
         return undecided("half of a complex distance");
     }
     let square = |n: &Number| n.z.mul(&n.w);
-    let curve = |x: Number, y: Number| {
-        Solved::Curve(vec![Root { turns: vec![Number::one(), x, y], shifts: Vec::new(), multiplicity: 1 }])
+    // The rotations, and whether each turns along the curve.
+    let curve = |x: Number, y: Number, turns: [bool; 2]| {
+        let turned = |n: &Number, by: &Number, turns: bool| if turns { n.mul(by) } else { n.clone() };
+        let one = |by: Number| {
+            let turns = vec![Number::one(), turned(&x, &by, turns[0]), turned(&y, &by, turns[1])];
+            Root { turns, shifts: Vec::new(), multiplicity: 1 }
+        };
+        Solved::Curve(samples().map(one).to_vec())
     };
     let same = |a: usize, b: usize| square(&c[a]).sub(&square(&c[b])).vanishes();
     let quotient = |a: usize, b: usize| c[b].z.inverse().map(|inverse| c[a].z.mul(&inverse).neg()).and_then(rotation);
     match zero {
-        [true, true, true] => curve(Number::one(), Number::one()),
+        [true, true, true] => curve(Number::one(), Number::one(), [true, false]),
         [true, false, false] => match same(1, 2) {
             None => undecided("the difference of two lengths of a dyad"),
             Some(false) => Solved::Roots(Vec::new()),
             Some(true) => match quotient(2, 1) {
-                Some(x) => curve(x, Number::one()),
+                Some(x) => curve(x, Number::one(), [true, true]),
                 None => undecided("a length of a dyad"),
             },
         },
@@ -164,8 +176,8 @@ fn coincident(c: &[Number], zero: [bool; 3]) -> Solved {
                 None => undecided("the difference of two lengths of a dyad"),
                 Some(false) => Solved::Roots(Vec::new()),
                 Some(true) => match quotient(0, other) {
-                    Some(turn) if other == 2 => curve(Number::one(), turn),
-                    Some(turn) => curve(turn, Number::one()),
+                    Some(turn) if other == 2 => curve(Number::one(), turn, [true, false]),
+                    Some(turn) => curve(turn, Number::one(), [false, true]),
                     None => undecided("a length of a dyad"),
                 },
             }
@@ -205,7 +217,8 @@ fn with_slide(
         Err(what) => undecided(what),
         Ok(None) => {
             let shifts = vec![scalar(&fixed.z.mul(inverse).neg())];
-            Solved::Curve(vec![Root { turns: vec![Number::one(), Number::one()], shifts, multiplicity: 1 }])
+            let one = |by: Number| Root { turns: vec![Number::one(), by], shifts: shifts.clone(), multiplicity: 1 };
+            Solved::Curve(samples().map(one).to_vec())
         }
         Ok(Some(found)) => {
             let mut list = Vec::new();

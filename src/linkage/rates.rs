@@ -17,6 +17,9 @@ pub type Moving = Series<f64, 4>;
 /// A singular value below this share of the largest one stands for 0.
 const SINGULAR: f64 = 1e-10;
 
+/// Rates below this stand for 0, where those of all bodies together have the size 1.
+const STILL: f64 = 1e-7;
+
 /// The place of a body relative to the ground.
 #[derive(Clone, Debug)]
 pub struct Body {
@@ -166,6 +169,35 @@ pub fn jacobian(linkage: &Linkage, bodies: &[Body], of: &dyn Fn(&[Body]) -> Vec<
         }
     }
     matrix
+}
+
+/// The joints that move, to first order, while the inputs rest.
+#[must_use]
+pub fn movable(linkage: &Linkage, given: &[Given], rest: &[Body]) -> Vec<usize> {
+    let equations = |bodies: &[Body]| [open(linkage, bodies), prescribed(linkage, given, bodies)].concat();
+    let matrix = jacobian(linkage, rest, &equations);
+    // With fewer rows than columns a decomposition would not hold the whole null space.
+    let rows = matrix.nrows().max(matrix.ncols());
+    let svd = matrix.resize_vertically(rows, 0.0).svd(false, true);
+    let Some(ways) = svd.v_t else { return Vec::new() };
+    let largest = svd.singular_values.max();
+    let free = (0..svd.singular_values.len()).filter(|k| svd.singular_values[*k] <= SINGULAR * largest);
+    let moved = moved(linkage);
+    let motions: Vec<Vec<Body>> = free
+        .map(|k| {
+            let mut bodies = rest.to_vec();
+            for (place, body) in moved.iter().enumerate() {
+                for (part, series) in bodies[*body].parts().into_iter().enumerate() {
+                    series.coefficients[1] = ways[(k, 3 * place + part)];
+                }
+            }
+            bodies
+        })
+        .collect();
+    let rate = |bodies: &Vec<Body>, joint: usize| {
+        joint_value(linkage, bodies, joint).map_or(0.0, |value| value.coefficients[1].abs())
+    };
+    (0..linkage.joints.len()).filter(|joint| motions.iter().any(|bodies| rate(bodies, *joint) > STILL)).collect()
 }
 
 /// The motion of all bodies where the inputs run as these series, whose values themselves are not looked at. `None` at a

@@ -40,11 +40,14 @@ pub(super) struct Moving {
     pub sample: Option<(Root, Vec<Vec<f64>>)>,
     /// Whether a curve of real assemblies is proved.
     pub is_proved: bool,
+    /// All regular assemblies, which are isolated, and whether each is real; `None` where they were not looked for.
+    pub regular: Option<Vec<(Root, bool)>>,
 }
 
 /// Describes infinitely many assemblies of this dimension.
 pub(super) fn moving(system: &RealSystem, dimension: usize) -> Moving {
-    let mut found = Moving { dimension: dimension + system.spinning.len(), sample: None, is_proved: false };
+    let dimensions = dimension + system.spinning.len();
+    let mut found = Moving { dimension: dimensions, sample: None, is_proved: false, regular: None };
     let Some(mut point) = real_point(system) else { return found };
     let rates: Vec<Vec<f64>> = point.rates(system);
     let mut cut = system.clone();
@@ -84,6 +87,10 @@ pub(super) fn moving(system: &RealSystem, dimension: usize) -> Moving {
         if found.is_proved || (parts.min(components) > MOST_CUTS && rates.is_some()) {
             break;
         }
+    }
+    if rates.is_none() && system.spinning.is_empty() {
+        // One real member alone may be an isolated one of complex ones that move.
+        return found;
     }
     let mut rates = rates.unwrap_or_default();
     let unit = |class: &usize| {

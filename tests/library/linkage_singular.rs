@@ -73,3 +73,60 @@ fn multiple_assemblies_are_listed_once_with_their_multiplicity() {
     }
     assert!(finite > 15 && moving > 0, "{finite} {moving}");
 }
+
+/// Solves bodies in the plane whose shared points are joints.
+fn of_bodies(bodies: &Value) -> LinkageAnswer {
+    let mechanism = json!({
+        "kind": "linkage", "space": "plane", "ground": "f", "joints": "shared points", "bodies": bodies
+    });
+    let text = json!({ "title": "bodies", "mechanism": mechanism }).to_string();
+    let Any::Linkage(file) = any_from_text(&text, "test.json", Format::Json, &Options::default()).unwrap() else {
+        panic!("a linkage")
+    };
+    solve(&file.linkage, &file.cases[0].given, Accuracy::Exact).unwrap()
+}
+
+/// A crank of two equal links turns about A; a dyad of these lengths stands on it and on E.
+fn on_a_crank(lengths: [&str; 2]) -> LinkageAnswer {
+    of_bodies(&json!({
+        "f": { "A": [0, 0], "D": [0, 0], "E": [-2, 0] }, "a": { "A": 0, "B": 2, "P": 1 }, "b": { "D": 0, "B": 2 },
+        "c": { "P": 0, "Q": lengths[0] }, "d": { "E": 0, "Q": lengths[1] }
+    }))
+}
+
+#[test]
+fn groups_that_stand_on_a_motion_follow_it() {
+    // The dyad does not close with the crank at angle 0, and does elsewhere.
+    let answer = on_a_crank(["1", "1"]);
+    assert_eq!((answer.verdict.status, answer.verdict.proof), (Status::SelfMotion, Proof::Proved));
+    let [family] = answer.families.as_slice() else { panic!("one family") };
+    // All joints but B, about which the two equal links do not turn.
+    assert_eq!((family.dimension, &family.joints), (1, &vec![0, 1, 2, 4, 5]));
+    assert!(family.sample.real && family.sample.residual < 1e-12);
+}
+
+#[test]
+fn a_motion_on_which_nothing_can_stand_is_none() {
+    // P and E are 1 apart at least: the dyad closes nowhere, or stretched in one real assembly. Complex ones move in both cases.
+    for lengths in [["1/4", "1/4"], ["3/5", "2/5"]] {
+        let answer = on_a_crank(lengths);
+        assert_eq!((answer.verdict.status, answer.verdict.proof), (Status::Incomplete, Proof::None));
+        assert!(answer.families.is_empty());
+    }
+}
+
+#[test]
+fn assemblies_beside_a_motion_are_listed() {
+    // Three equal cranks move in parallel; two assemblies do not.
+    let answer = of_bodies(&json!({
+        "f": { "A": [0, 0], "B": [4, 0], "C": [0, 3] }, "a": { "A": 0, "D": 2 }, "b": { "B": 0, "E": 2 },
+        "c": { "C": 0, "G": 2 }, "plate": { "D": [0, 0], "E": [4, 0], "G": [0, 3] }
+    }));
+    assert_eq!((answer.verdict.status, answer.verdict.proof), (Status::SelfMotion, Proof::Proved));
+    assert_eq!((answer.modes.len(), answer.verdict.real), (2, 2));
+    // The centres of the circles on which its corners lie are moved by 2 sin(angle / 2) times the radius 5/2 of the triangle: to 2.
+    for mode in &answer.modes {
+        assert!(((mode.bodies[4].0.re / 2.0).sin().abs() - 0.4).abs() < 1e-12);
+    }
+    assert!(answer.verdict.reason.contains("all regular assemblies"), "{}", answer.verdict.reason);
+}

@@ -1,0 +1,92 @@
+//! Groups that stand on one that moves by itself.
+//!
+//! At a place of that motion they are solved as anywhere else. If they have a real assembly there that is regular, it goes on along the
+//! motion, by the theorem of implicit functions, and the whole linkage moves. Otherwise the group that moves and those that stand on it
+//! are decided as one group over the rationals: they may close at other places.
+
+use super::answer::is_one;
+use super::assembly::{Asked, Assemblies, Branch, Family, FamilyKind, Route, SHALLOW, Solution, attempt, by_basis};
+use super::equations::Closure;
+use super::exact_group::decided;
+use super::groups::Group;
+use super::state::State;
+use crate::kinematics::linkage::Linkage;
+
+/// Branches whose groups are solved as one: a Gröbner basis takes up to a second.
+const MOST_UNITED: usize = 4;
+/// Motions that are followed in one branch.
+const MOST_FOLLOWED: usize = 4;
+
+/// Replaces real motions of a group by those of the whole linkage; false where one of them is not known to go on.
+pub(super) fn follow(linkage: &Linkage, families: &mut [Family], later: &[Group], asked: Asked<'_>) -> bool {
+    let real = families.iter_mut().filter(|family| family.state.real);
+    let mut all = true;
+    for (k, family) in real.enumerate() {
+        all = k < MOST_FOLLOWED && follow_one(linkage, family, later, asked) && all;
+    }
+    all
+}
+
+fn follow_one(linkage: &Linkage, family: &mut Family, later: &[Group], asked: Asked<'_>) -> bool {
+    // A sample of another motion may be an isolated assembly beside it.
+    let is_proved = matches!(family.kind, FamilyKind::Dyad | FamilyKind::Spin);
+    let go_on = |sample: &State| {
+        let found = attempt(linkage, sample, later, SHALLOW, false, asked).ok()?;
+        let is_regular = |state: &State| state.real && state.multiplicity == sample.multiplicity;
+        if let Some(state) = found.modes.into_iter().find(is_regular) {
+            return Some((state, family.dimension, is_proved));
+        }
+        // While the first group stands still, another one may move.
+        let moves = |other: &Family| other.state.real && is_one(&other.state);
+        let other = found.curves.into_iter().find(moves)?;
+        Some((other.state, other.dimension, other.is_proved))
+    };
+    let Some((state, dimension, is_proved)) = [&family.state].into_iter().chain(&family.samples).find_map(go_on) else {
+        return false;
+    };
+    (family.state, family.dimension, family.is_proved) = (state, dimension, is_proved);
+    family.kind = FamilyKind::Followed;
+    true
+}
+
+/// Assemblies of all bodies from groups that were solved as one.
+#[derive(Default)]
+pub(super) struct United {
+    /// The isolated ones.
+    pub modes: Vec<State>,
+    /// The group and how it was solved.
+    pub solution: Option<Solution>,
+    branches: usize,
+}
+
+impl United {
+    /// Solves the group of a branch and those that stand on it as one, and takes the place of the curves from the number `moving` on; false
+    /// where that takes too much work, or numbers are not rational.
+    pub fn solve(&mut self, at: Branch<'_>, later: &[Group], moving: usize, found: &mut Assemblies) -> bool {
+        let all = || [at.group].into_iter().chain(later);
+        if self.branches >= MOST_UNITED || all().any(|group| !group.gears.is_empty()) {
+            return false;
+        }
+        self.branches += 1;
+        let clusters: Vec<usize> = all().flat_map(|group| group.clusters.iter().copied()).collect();
+        let joints: Vec<usize> = all().flat_map(|group| group.joints.iter().copied()).collect();
+        let mut names: Vec<usize> = clusters.iter().map(|body| at.state.bodies[*body].0).collect();
+        names.sort_unstable();
+        names.dedup();
+        let group = Group { clusters, joints: joints.clone(), gears: Vec::new(), count: 0 };
+        let Some(closure) = Closure::new(at.linkage, &group, at.state) else { return false };
+        let Some(decided) = decided(&closure.equations) else { return false };
+        let bodies = &at.state.bodies;
+        let of = |name: &usize| (0..bodies.len()).filter(|body| bodies[*body].0 == *name).collect();
+        let solution = self.solution.get_or_insert_with(|| Solution {
+            bodies: names.iter().map(of).collect(),
+            joints,
+            count: 0,
+            route: Route::Basis,
+        });
+        found.curves.truncate(moving);
+        let whole = Branch { closure: &closure, group: &group, ..at };
+        by_basis(decided, &[], whole, solution, &mut self.modes, found);
+        true
+    }
+}
