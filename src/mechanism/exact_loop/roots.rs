@@ -137,7 +137,9 @@ fn many(polynomial: &Univariate<Rational>) -> Option<Vec<Root>> {
 
 /// Returns the discs of the roots above the real line, of which there are `pairs`.
 fn upper<R: Extended>(polynomial: &Univariate<Rational>, pairs: usize) -> Option<Vec<Disc>> {
-    let rounded: Univariate<R> = polynomial.map(R::from_rational)?;
+    // Coefficients of some hundred digits would be infinite as f64.
+    let largest = polynomial.coefficients().iter().max_by(|a, b| a.cmp_abs(b))?;
+    let rounded: Univariate<R> = polynomial.map(|c| R::from_rational(&Rational::from(c / largest)))?;
     let mut discs = Vec::new();
     for root in polynomial_roots(&rounded)? {
         if root.im.to_f64() > 0.0 {
@@ -201,6 +203,8 @@ mod tests {
             (product(&[&[1, 0, 1], &[-2, 0, 1], &[-3, 1], &[5, 1, 1]]), 3),
             (product(&[&[2, -2 * billion, billion * billion], &[7, 0, 1]]), 0),
             (product(&[&[-5, 1, 3]]), 2),
+            // Coefficients beyond those of f64.
+            (product(&[&[1, 0, 1], &[5, 1, 1]]).scale(&(Rational::from(1) << 3000_u32)), 0),
         ] {
             let found = roots(&polynomial).unwrap();
             assert_eq!(Some(found.len()), polynomial.degree());
