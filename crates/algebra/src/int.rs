@@ -104,7 +104,7 @@ fn wide_rest(n: &Integer, word: u64) -> u64 {
 }
 
 /// Stein's binary algorithm.
-fn gcd_of_words(mut a: u64, mut b: u64) -> u64 {
+pub(super) fn gcd_of_words(mut a: u64, mut b: u64) -> u64 {
     if a == 0 || b == 0 {
         return a | b;
     }

@@ -121,7 +121,29 @@ impl Univariate<Rational> {
     /// Returns the coefficients of the primitive multiple: integers without common factor, the last one positive.
     #[must_use]
     pub fn primitive_integers(&self) -> Vec<Integer> {
-        self.clone().normalise().coefficients().iter().map(|c| c.numer().clone()).collect()
+        let mut common = Integer::from(1);
+        for c in self.coefficients().iter().filter(|c| !c.is_integer()) {
+            common.lcm_mut(c.denom());
+        }
+        let integer = |c: &Rational| {
+            if common == 1 { c.numer().clone() } else { Integer::from(common.div_exact_ref(c.denom())) * c.numer() }
+        };
+        let mut integers: Vec<Integer> = self.coefficients().iter().map(integer).collect();
+        let mut content = Integer::new();
+        for c in integers.iter().rev() {
+            content.gcd_mut(c);
+            if content == 1 {
+                break;
+            }
+        }
+        if integers.last().is_some_and(Integer::is_negative) {
+            content = -content;
+        }
+        if content != 1 {
+            // Zero only of the zero polynomial, which has no coefficients.
+            integers.iter_mut().for_each(|c| c.div_exact_mut(&content));
+        }
+        integers
     }
 
     /// Returns the number of distinct real roots, by Sturm's theorem.
@@ -137,6 +159,30 @@ impl Univariate<Rational> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Integers, common factors, and denominators, words and longer ones, of both signs: as by the rationals' own way.
+    #[test]
+    fn primitive_integers_are_those_of_the_normalised_multiple() {
+        assert!(Univariate::<Rational>::new(Vec::new()).primitive_integers().is_empty());
+        let mut state = 7_u64;
+        let mut next = |bits: u32| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            Integer::from(state.cast_signed() >> (64 - bits))
+        };
+        for round in 0..300_usize {
+            let (bits, fractions) = ([2, 9, 63][round % 3], round % 2 == 1);
+            let factor = next(bits) << (if round % 5 == 0 { 70_u32 } else { 0 });
+            let number = |_| {
+                let denominator = if fractions { next(8).abs() + 1_u32 } else { Integer::from(1) };
+                Rational::from((next(bits) * &factor, denominator))
+            };
+            let poly = Univariate::new((0..=round % 12).map(number).collect());
+            let normalised = poly.clone().normalise();
+            let expected: Vec<Integer> = normalised.coefficients().iter().map(|c| c.numer().clone()).collect();
+            assert!(normalised.coefficients().iter().all(Rational::is_integer));
+            assert_eq!(poly.primitive_integers(), expected, "{poly:?}");
+        }
+    }
 
     #[test]
     fn rounded_chains_count_like_exact_ones() {

@@ -8,8 +8,10 @@ use super::cell::Cell;
 use super::evaluate::{length, shifted};
 use super::fixed::Wide;
 use super::rough;
+use crate::int::gcd_of_words;
 use pulp::Arch;
 use rug::Integer;
+use std::sync::Arc;
 
 /// The bits that the coefficients of the 256-bit expansion have before the binomial sums lose some.
 const WIDE_BITS: i64 = 252;
@@ -20,6 +22,9 @@ const ROUGH_BITS: u32 = 24;
 /// The error of an expansion that no halving has touched.
 const FRESH_ERROR: u64 = 3;
 
+/// The largest degree n for which the least common multiple of 1 to n + 1, and the products on the way to binomials, fit a word.
+const MOST_SHORT: usize = 45;
+
 /// A polynomial made ready for expansion.
 pub(super) struct Source {
     /// Constant term first, the last one not zero.
@@ -27,7 +32,7 @@ pub(super) struct Source {
     /// Their lengths in bits; `None` for 0.
     pub(super) lengths: Vec<Option<i64>>,
     /// `l / C(n,i)`, l the least common multiple of the binomials of n.
-    weights: Vec<Integer>,
+    weights: Arc<[Integer]>,
     /// The leading bits of coefficient times weight, and the power of two left out.
     leading: Vec<(Wide, i64)>,
     /// The leading bits of the coefficients, and the powers of two left out.
@@ -46,16 +51,36 @@ pub(super) enum Expansion {
     Rough { coefficients: Vec<f64>, error: f64 },
 }
 
+/// Returns `l / C(n,i)` for all i, and l, the least common multiple of the `C(n,i)`.
+fn weights(n: usize) -> (Vec<Integer>, Integer) {
+    let mut binomials = vec![Integer::from(1)];
+    for i in 0..n {
+        let next = Integer::from(&binomials[i] * (n - i));
+        binomials.push(next.div_exact(&Integer::from(i + 1)));
+    }
+    let common = binomials.iter().fold(Integer::from(1), Integer::lcm);
+    (binomials.iter().map(|b| Integer::from(common.div_exact_ref(b))).collect(), common)
+}
+
+/// Returns the same in machine words: l is the least common multiple of 1 to n + 1, divided by n + 1 (Farhi 2009, "An identity
+/// involving the least common multiple of binomial coefficients and its application", American Mathematical Monthly 116).
+fn short_weights(n: usize) -> (Vec<Integer>, Integer) {
+    let n = n as u64;
+    let multiple = (1..=n + 1).fold(1, |multiple, k| multiple / gcd_of_words(multiple, k) * k);
+    let common = multiple / (n + 1);
+    let mut binomial = 1;
+    let weight = |i: u64| {
+        let weight = Integer::from(common / binomial);
+        binomial = binomial * (n - i) / (i + 1);
+        weight
+    };
+    ((0..=n).map(weight).collect(), Integer::from(common))
+}
+
 impl Source {
     pub(super) fn new(coefficients: Vec<Integer>) -> Self {
         let n = coefficients.len() - 1;
-        let mut binomials = vec![Integer::from(1)];
-        for i in 0..n {
-            let next = Integer::from(&binomials[i] * (n - i));
-            binomials.push(next.div_exact(&Integer::from(i + 1)));
-        }
-        let common = binomials.iter().fold(Integer::from(1), Integer::lcm);
-        let weights: Vec<Integer> = binomials.iter().map(|b| Integer::from(common.div_exact_ref(b))).collect();
+        let (weights, common) = if n <= MOST_SHORT { short_weights(n) } else { weights(n) };
         let leading = coefficients.iter().zip(&weights).map(|(c, w)| {
             let product = Integer::from(c * w);
             let dropped = (length(&product) - WIDE_BITS).max(0);
@@ -67,7 +92,7 @@ impl Source {
             lengths: coefficients.iter().map(|c| (*c != 0).then(|| length(c))).collect(),
             weight_bits: length(&common),
             count_bits: length(&Integer::from(n + 1)),
-            weights,
+            weights: weights.into(),
             coefficients,
         }
     }
@@ -152,7 +177,7 @@ impl Source {
                 *b = shifted(b, i64::from(*places) - depth * i) / power;
             }
         }
-        for (b, weight) in b.iter_mut().zip(&self.weights) {
+        for (b, weight) in b.iter_mut().zip(self.weights.iter()) {
             *b *= weight;
         }
         for i in 1..b.len() {
@@ -384,6 +409,13 @@ mod tests {
     use crate::real_roots::cell::dyadic;
     use rug::Rational;
 
+    #[test]
+    fn weights_in_words_are_those_of_big_integers() {
+        for n in 1..=MOST_SHORT {
+            assert_eq!(short_weights(n), weights(n), "{n}");
+        }
+    }
+
     /// Returns `l b_j` on a cell for `p(x) = sum c_i x^i`, exactly: `sum_i C(j,i) w_i q_i` with `q(y) = p(x_0 + w y)`.
     fn exactly(source: &Source, cell: &Cell) -> Vec<Rational> {
         let (start, width) = (cell.lo(), cell.hi() - cell.lo());
@@ -396,7 +428,7 @@ mod tests {
             }
         }
         let mut power = Rational::from(1);
-        for (q, weight) in q.iter_mut().zip(&source.weights) {
+        for (q, weight) in q.iter_mut().zip(source.weights.iter()) {
             *q *= Rational::from(weight) * &power;
             power *= &width;
         }
