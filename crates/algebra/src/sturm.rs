@@ -141,7 +141,9 @@ impl Univariate<Rational> {
         }
         if content != 1 {
             // Zero only of the zero polynomial, which has no coefficients.
-            integers.iter_mut().for_each(|c| c.div_exact_mut(&content));
+            for c in &mut integers {
+                c.div_exact_mut(&content);
+            }
         }
         integers
     }
