@@ -7,7 +7,7 @@ use super::scope::Scope;
 use crate::algebra::number::{Angle, Number, Quantity, Reading};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Placement;
-use crate::kinematics::decimal::Decimal;
+use crate::kinematics::decimal::{Decimal, Plain};
 use crate::kinematics::tolerance::Tolerance;
 use rug::Rational;
 
@@ -111,7 +111,7 @@ impl<'a> PoseRows<'a> {
             let message = format!("found {found} values, expected {expected}");
             return Err(Error::Invalid(message).at(self.path, line));
         }
-        if let Some((placement, warning, typed)) = self.of_decimals(&cells) {
+        if let Some(((placement, warning), typed)) = self.of_decimals(&cells) {
             let mut case = of_design(self.design, placement, line);
             case.warnings.extend(warning);
             return Ok(Case { typed: (!self.are_doubles).then_some(typed), ..case });
@@ -127,29 +127,52 @@ impl<'a> PoseRows<'a> {
         Ok(case)
     }
 
+    /// Returns the pose of a row of doubles, in the order of the header, lengths in metres.
+    ///
+    /// # Errors
+    /// As [`PoseRows::case`].
+    pub fn case_of_doubles(&self, row: &[f64], line: usize) -> Result<Case> {
+        let mut values = [Plain::Double(0.0); 12];
+        let own = row.iter().map(|x| Plain::of_double(*x));
+        let is_plain = values.iter_mut().zip(own).all(|(value, own)| own.map(|own| *value = own).is_some());
+        if let Some((placement, warning)) = is_plain.then(|| self.of_plain(&values)).flatten() {
+            let mut case = of_design(self.design, placement, line);
+            case.warnings.extend(warning);
+            return Ok(case);
+        }
+        // The shortest decimals that are these doubles.
+        let cells: Vec<String> = row.iter().map(|x| format!("{x:e}")).collect();
+        self.case(&cells.join(","), line)
+    }
+
+    /// The pose of plain numbers in the order of the form, and its warning. `None` where exact numbers have to tell.
+    fn of_plain(&self, values: &[Plain; 12]) -> Option<(Placement, Option<String>)> {
+        match self.form {
+            Form::Quaternion => {
+                let [x, y, z, quaternion @ ..] = values.first_chunk::<7>()?;
+                Placement::of_rounded_quaternion(quaternion, &[*x, *y, *z])
+            }
+            Form::Matrix => {
+                let row = |i: usize| [values[4 * i], values[4 * i + 1], values[4 * i + 2], values[4 * i + 3]];
+                Some((Placement::of_rounded_matrix(&[row(0), row(1), row(2)])?, None))
+            }
+            Form::Angles | Form::Objects => None,
+        }
+    }
+
     /// Reads a pose in plain decimals, which need no exact numbers, with its warning and its tolerance.
-    fn of_decimals(&self, cells: &[&str]) -> Option<(Placement, Option<String>, Tolerance)> {
+    fn of_decimals(&self, cells: &[&str]) -> Option<((Placement, Option<String>), Tolerance)> {
         let mut values = [Decimal::default(); 12];
         for (((place, _), power), cell) in self.columns.iter().zip(self.powers.as_ref()?).zip(cells) {
             values[*place] = Decimal::read(cell)?.shifted(*power);
         }
-        let (placement, warning) = match self.form {
-            Form::Quaternion => {
-                let [x, y, z, quaternion @ ..] = values.first_chunk::<7>()?;
-                Placement::of_rounded_quaternion(quaternion, &[*x, *y, *z])?
-            }
-            Form::Matrix => {
-                let row = |i: usize| [values[4 * i], values[4 * i + 1], values[4 * i + 2], values[4 * i + 3]];
-                (Placement::of_rounded_matrix(&[row(0), row(1), row(2)])?, None)
-            }
-            Form::Angles | Form::Objects => return None,
-        };
+        let placed = self.of_plain(&values.map(Plain::Typed))?;
         let least = |lengths: bool| {
             let own = (0..cells.len()).filter(|k| self.form.is_length(*k) == lengths);
             own.map(|k| values[k].last_digit()).fold(COARSEST, f64::min)
         };
         let factor = if self.form == Form::Quaternion { OF_QUATERNION } else { 1.0 };
-        Some((placement, warning, Tolerance { length: least(true), angle: least(false) * factor }))
+        Some((placed, Tolerance { length: least(true), angle: least(false) * factor }))
     }
 
     fn object(&self, text: &str, line: usize) -> Result<Case> {

@@ -1,4 +1,4 @@
-//! Decimals as they are typed: whole numbers of up to 18 digits over a power of ten.
+//! Numbers of poses as they are given: decimals as they are typed, whole numbers of up to 18 digits over a power of ten, and doubles.
 
 use crate::algebra::double_double::DoubleDouble;
 use crate::algebra::number::Number;
@@ -97,6 +97,62 @@ impl Decimal {
     }
 }
 
+/// Doubles that are the nearest ones to decimals of this many places stand for these; all of them up to 9 km are told apart.
+const PLACES: i32 = 12;
+/// Whole numbers below this are doubles.
+const WHOLE: f64 = 9_007_199_254_740_992.0;
+/// Doubles of other sizes, 0 apart, are left to the reader of text, which bounds them.
+const COMMON: f64 = 1e100;
+
+/// A number of a pose that is known exactly and used in f64, as a rule.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Plain {
+    /// A decimal.
+    Typed(Decimal),
+    /// A double, as the binary fraction that it is.
+    Double(f64),
+}
+
+impl Plain {
+    /// Takes the double nearest to a decimal of few places for that decimal, as text would be read, and any other as it is.
+    /// `None` for sizes that poses do not have.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "a whole number below 2^53")]
+    pub fn of_double(x: f64) -> Option<Self> {
+        let scale = 10_f64.powi(PLACES);
+        let digits = (x * scale).round();
+        // The quotient of two doubles is rounded once.
+        if digits.abs() < WHOLE && digits / scale == x {
+            return Some(Self::Typed(Decimal { digits: digits as i64, exponent: -PLACES }));
+        }
+        (COMMON.recip()..COMMON).contains(&x.abs()).then_some(Self::Double(x))
+    }
+
+    /// The number itself.
+    #[must_use]
+    pub fn rational(self) -> Rational {
+        match self {
+            Self::Typed(decimal) => decimal.rational(),
+            Self::Double(x) => Rational::from_f64(x).unwrap_or_default(),
+        }
+    }
+
+    /// The number as a file gives it.
+    #[must_use]
+    pub fn number(self) -> Number {
+        Number::exact(self.rational())
+    }
+
+    /// The number in twice the digits of a double.
+    #[must_use]
+    pub fn double_double(self) -> DoubleDouble {
+        match self {
+            Self::Typed(decimal) => decimal.double_double(),
+            Self::Double(x) => DoubleDouble::from(x),
+        }
+    }
+}
+
 /// A whole number, exactly.
 #[must_use]
 #[expect(clippy::cast_possible_truncation, reason = "a double that was rounded from a machine word")]
@@ -123,6 +179,23 @@ mod tests {
             let off = own.double_double().sub(&exact).to_f64().abs();
             assert!(off <= 1e-30 * expected.abs(), "{text}: {off:e}");
         }
+    }
+
+    #[test]
+    fn doubles_are_the_decimals_they_were_typed_as_or_themselves() {
+        for text in ["0", "-0.5", "0.1", "0.1625", "-0.425", "1234.567890123", "1e-12", "0.000000000001"] {
+            let x: f64 = text.parse().unwrap();
+            let exact = Decimal::read(text).unwrap().rational();
+            assert_eq!(Plain::of_double(x).unwrap().rational(), exact, "{text}");
+        }
+        for x in [1.0 / 3.0, 0.707_106_781_186_547_5, 0.1_f64.next_up(), 1.224_646_799_147_353_2e-16, 1e22, 12_345.1] {
+            let own = Plain::of_double(x).unwrap();
+            assert_eq!(own.number().to_f64(), x);
+            assert_eq!(own.double_double().to_f64(), x);
+            assert_eq!(own, Plain::Double(x));
+            assert_eq!(own.rational(), Rational::from_f64(x).unwrap());
+        }
+        assert!([1e200, 1e-200, f64::NAN, f64::INFINITY].iter().all(|x| Plain::of_double(*x).is_none()));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! A rigid motion over the rationals that is computed when it is first needed.
 
-use super::decimal::Decimal;
+use super::decimal::Plain;
 use super::motion::Motion;
 use super::placement::rotation_of;
 use crate::algebra::number::Number;
@@ -20,9 +20,9 @@ pub struct ExactMotion {
 #[derive(Clone, Debug)]
 pub(super) enum Datum {
     /// A matrix, and the quaternion of the rotation that represents it: whole numbers over 2^60.
-    Matrix([[Decimal; 4]; 3], [i64; 4]),
+    Matrix([[Plain; 4]; 3], [i64; 4]),
     /// A quaternion of any length near 1, and a position.
-    Quaternion([Decimal; 4], [Decimal; 3]),
+    Quaternion([Plain; 4], [Plain; 3]),
     /// A quaternion of whole numbers over 2^60, and a position.
     Binary([i64; 4], [f64; 3]),
 }
@@ -45,7 +45,7 @@ impl ExactMotion {
     /// Returns the rows of the matrix that it represents, if there is one.
     pub(super) fn rows(&self) -> Option<Box<[[Number; 4]; 3]>> {
         match self.datum.as_deref()? {
-            Datum::Matrix(rows, _) => Some(Box::new(rows.map(|row| row.map(Decimal::number)))),
+            Datum::Matrix(rows, _) => Some(Box::new(rows.map(|row| row.map(Plain::number)))),
             Datum::Quaternion(..) | Datum::Binary(..) => None,
         }
     }
@@ -61,8 +61,8 @@ impl Datum {
                 Motion { rotation: rotation_of([&w, &x, &y, &z]), translation }
             }
             Self::Quaternion(quaternion, position) => {
-                let [w, x, y, z] = quaternion.map(Decimal::rational);
-                Motion { rotation: rotation_of([&w, &x, &y, &z]), translation: position.map(Decimal::rational) }
+                let [w, x, y, z] = quaternion.map(Plain::rational);
+                Motion { rotation: rotation_of([&w, &x, &y, &z]), translation: position.map(Plain::rational) }
             }
             Self::Binary(quaternion, position) => {
                 let [w, x, y, z] = quaternion.map(|part| Rational::from(part) >> QUATERNION_BITS);

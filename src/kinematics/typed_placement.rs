@@ -1,7 +1,7 @@
-//! Poses of plain decimals: in twice the digits of a double at once, over the rationals on request.
+//! Poses of plain numbers: in twice the digits of a double at once, over the rationals on request.
 
 use super::chain::Placement;
-use super::decimal::{Decimal, whole};
+use super::decimal::{Plain, whole};
 use super::exact_motion::{Datum, ExactMotion, QUATERNION_BITS};
 use super::motion::Motion;
 use super::placement::{REFUSED, noted_norm, rotation_over};
@@ -27,8 +27,8 @@ impl Placement {
     /// The placement by a matrix, its three upper rows given. `None` where its rotation is off by more than rounding or may
     /// be one exactly: [`Placement::from_matrix`] tells then.
     #[must_use]
-    pub fn of_rounded_matrix(rows: &[[Decimal; 4]; 3]) -> Option<Self> {
-        let given: Matrix3 = rows.map(|row| [row[0], row[1], row[2]].map(Decimal::double_double));
+    pub fn of_rounded_matrix(rows: &[[Plain; 4]; 3]) -> Option<Self> {
+        let given: Matrix3 = rows.map(|row| [row[0], row[1], row[2]].map(Plain::double_double));
         let off = off_rotation(&given);
         let plain = given.map(|row| row.map(DoubleDouble::to_f64));
         let is_rotation = off < ROUNDED && determinant(&plain) > 0.0;
@@ -47,8 +47,8 @@ impl Placement {
     /// The placement by a quaternion `[w, x, y, z]`, which is normalised, and a position, with the warning of
     /// [`Placement::from_quaternion_position`]. `None` where the length of the quaternion is off by too much: that one tells then.
     #[must_use]
-    pub fn of_rounded_quaternion(quaternion: &[Decimal; 4], position: &[Decimal; 3]) -> Option<(Self, Option<String>)> {
-        let own = quaternion.map(Decimal::double_double);
+    pub fn of_rounded_quaternion(quaternion: &[Plain; 4], position: &[Plain; 3]) -> Option<(Self, Option<String>)> {
+        let own = quaternion.map(Plain::double_double);
         let square = sum(own.iter().map(|q| q.mul(q)));
         let above = square.sub(&DoubleDouble::one()).to_f64();
         // sqrt(1 + x) - 1 without cancellation.
@@ -57,7 +57,7 @@ impl Placement {
             return None;
         }
         let rotation = rotation_over(own.each_ref())?;
-        let motion = Motion { rotation, translation: position.map(Decimal::double_double) };
+        let motion = Motion { rotation, translation: position.map(Plain::double_double) };
         let exact = ExactMotion::of(Datum::Quaternion(*quaternion, *position));
         Some((Self { defect, ..Self::in_both(exact, motion) }, noted_norm(defect)))
     }
@@ -165,10 +165,11 @@ fn nearest_whole(x: DoubleDouble) -> Option<i64> {
 mod tests {
     use super::*;
     use crate::algebra::number::Number;
+    use crate::kinematics::decimal::Decimal;
     use rug::Rational;
 
-    fn decimal(x: f64) -> Decimal {
-        Decimal::read(&format!("{x:?}")).unwrap()
+    fn decimal(x: f64) -> Plain {
+        Plain::Typed(Decimal::read(&format!("{x:?}")).unwrap())
     }
 
     /// Returns whether two motions are equal up to the error that an entry of 0 has in twice the digits.
@@ -179,7 +180,7 @@ mod tests {
     }
 
     /// Rows of a rotation matrix, as they are printed, and a position.
-    fn rows(k: u32) -> [[Decimal; 4]; 3] {
+    fn rows(k: u32) -> [[Plain; 4]; 3] {
         let angle = |j: u32| f64::from(7 * k + j).sin() * 3.0;
         let turn = Motion::rotation_z(angle(0).cos(), angle(0).sin())
             .then_after(&Motion::rotation_x(angle(1).cos(), angle(1).sin()))
@@ -196,7 +197,7 @@ mod tests {
             let rows = rows(k);
             let fast = Placement::of_rounded_matrix(&rows).unwrap();
             let last = [0, 0, 0, 1].map(|n| Number::exact(Rational::from(n)));
-            let [first, second, third] = rows.map(|row| row.map(Decimal::number));
+            let [first, second, third] = rows.map(|row| row.map(Plain::number));
             let (slow, warning) = Placement::from_matrix(&[first, second, third, last]).unwrap();
             assert!(warning.is_none());
             assert_eq!(fast.exact, slow.exact, "{k}");
@@ -219,12 +220,27 @@ mod tests {
             }
             let (quaternion, position) = (quaternion.map(decimal), [0.1, -2.5, 3e-7].map(decimal));
             let (fast, noted) = Placement::of_rounded_quaternion(&quaternion, &position).unwrap();
-            let numbers = (quaternion.map(Decimal::number), position.map(Decimal::number));
+            let numbers = (quaternion.map(Plain::number), position.map(Plain::number));
             let (slow, warning) = Placement::from_quaternion_position(&numbers.0, &numbers.1).unwrap();
             assert_eq!(warning, noted);
             assert_eq!(fast.exact, slow.exact, "{k}");
             assert!(agree(&fast.float, &slow.float), "{k}");
             assert!((fast.defect - slow.defect).abs() < 1e-20 + 1e-9 * slow.defect, "{k}");
+            assert!(agree(&fast.inverse_in_f64().unwrap(), &slow.inverse_image().unwrap()), "{k}");
+        }
+    }
+
+    #[test]
+    fn doubles_are_placed_as_by_exact_numbers() {
+        for k in 0..100 {
+            let double = |x: Plain| Plain::of_double(x.number().to_f64()).unwrap();
+            let rows = rows(k).map(|row| row.map(double));
+            let fast = Placement::of_rounded_matrix(&rows).unwrap();
+            let last = [0, 0, 0, 1].map(|n| Number::exact(Rational::from(n)));
+            let [first, second, third] = rows.map(|row| row.map(Plain::number));
+            let (slow, _) = Placement::from_matrix(&[first, second, third, last]).unwrap();
+            assert_eq!(fast.exact, slow.exact, "{k}");
+            assert!(agree(&fast.float, &slow.float), "{k}");
             assert!(agree(&fast.inverse_in_f64().unwrap(), &slow.inverse_image().unwrap()), "{k}");
         }
     }
@@ -256,7 +272,7 @@ mod tests {
         let mut off = exact;
         off[0][0] = 0.600_001;
         assert!(read(off).is_none());
-        let mirrored = rows(1).map(|row| [row[0], row[1], row[2].shifted(0), row[3]]);
+        let mirrored = rows(1).map(|row| [row[0], row[1], row[2], row[3]]);
         assert!(Placement::of_rounded_matrix(&mirrored).is_some());
         assert!(Placement::of_rounded_matrix(&[mirrored[1], mirrored[0], mirrored[2]]).is_none());
     }

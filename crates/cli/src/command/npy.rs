@@ -1,7 +1,6 @@
 //! Arrays of numpy: the head of a file, and the numbers of its rows, read one row at a time.
 
 use looproot::internal::error::Error;
-use std::fmt::Write as _;
 use std::io::{ErrorKind, Read};
 
 /// What every file of numpy begins with.
@@ -9,6 +8,9 @@ pub const MAGIC: &[u8; 6] = b"\x93NUMPY";
 /// Longest head, bytes: that of an array of numbers has less than two hundred.
 const LONGEST: u32 = 1 << 16;
 const EXPECTED: &str = "expected the shape (n, 4, 4) or (n, 7), x, y, z, qw, qx, qy, qz, of float64 or float32";
+
+/// The numbers of a row, and how many there are.
+pub type Numbers = ([f64; 12], usize);
 
 /// The rows of an array of poses that are left to be read.
 pub struct Array {
@@ -94,11 +96,11 @@ impl Array {
         }
     }
 
-    /// Reads the row with this number, from 1, as a line of that table.
+    /// Reads the row with this number, from 1: as many numbers as that header has names, and zeros.
     ///
     /// # Errors
     /// Where the file ends before, and for a matrix whose last row is not 0, 0, 0, 1.
-    pub fn row(&self, number: usize, input: &mut dyn Read) -> Result<String, Error> {
+    pub fn row(&self, number: usize, input: &mut dyn Read) -> Result<Numbers, Error> {
         let mut bytes = [0; 16 * 8];
         let size = if self.is_double { 8 } else { 4 };
         let bytes = &mut bytes[..self.width * size];
@@ -116,7 +118,9 @@ impl Array {
             [a, b, c, d, e, f, g, h] => f64::from_le_bytes([*a, *b, *c, *d, *e, *f, *g, *h]),
             _ => f64::NAN,
         };
-        let values: Vec<f64> = bytes.chunks_exact(size).map(double).collect();
+        let mut values = [0.0; 16];
+        let values = &mut values[..self.width];
+        values.iter_mut().zip(bytes.chunks_exact(size)).for_each(|(value, part)| *value = double(part));
         if let Some(bad) = values.iter().find(|value| !value.is_finite()) {
             return Err(Error::Invalid(format!("found {bad} in pose {number}, expected numbers")));
         }
@@ -124,12 +128,9 @@ impl Array {
         if !last.is_empty() && last != [0.0, 0.0, 0.0, 1.0] {
             return Err(Error::Invalid(format!("found the last row {last:?} of pose {number}, expected [0, 0, 0, 1]")));
         }
-        let mut line = String::new();
-        for (place, value) in given.iter().enumerate() {
-            // The shortest decimal that is this double.
-            let _ = write!(line, "{}{value:e}", if place == 0 { "" } else { "," });
-        }
-        Ok(line)
+        let mut row = [0.0; 12];
+        row[..given.len()].copy_from_slice(given);
+        Ok((row, given.len()))
     }
 }
 
@@ -167,12 +168,12 @@ mod tests {
     }
 
     #[test]
-    fn rows_are_decimals_and_the_last_row_of_a_matrix_is_checked() {
+    fn rows_are_doubles_and_the_last_row_of_a_matrix_is_checked() {
         let array = Array { count: 2, width: 7, is_double: true, is_big_endian: true };
         let values = [0.1, -2.0, 1e-7, 1.0, 0.0, 0.0, 0.0];
         let bytes: Vec<u8> = values.iter().flat_map(|value: &f64| value.to_be_bytes()).collect();
-        let line = array.row(1, &mut bytes.as_slice()).unwrap_or_else(|error| panic!("{error}"));
-        assert_eq!(line, "1e-1,-2e0,1e-7,1e0,0e0,0e0,0e0");
+        let (row, count) = array.row(1, &mut bytes.as_slice()).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(row[..count], values);
         let short = array.row(2, &mut &bytes[..50]).err().map(|error| error.to_string());
         assert_eq!(short.as_deref(), Some("found the end of the file, expected pose 2 of 2"));
         let matrix = Array { count: 1, width: 16, is_double: false, is_big_endian: false };

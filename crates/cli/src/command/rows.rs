@@ -1,6 +1,6 @@
 //! The poses of `--poses`, read row by row while others are solved.
 
-use super::npy::{Array, MAGIC};
+use super::npy::{Array, MAGIC, Numbers};
 use looproot::internal::catalogue::entry::{Case, Design};
 use looproot::internal::catalogue::poses::PoseRows;
 use looproot::internal::error::Error;
@@ -15,8 +15,14 @@ const LONGEST: u64 = 1 << 16;
 pub struct Row {
     /// Its line, from 1.
     pub line: usize,
-    /// Its text, or the reason why there is none.
-    text: Result<String, Error>,
+    /// Its content, or the reason why there is none.
+    content: Result<Content, Error>,
+}
+
+/// The content of a row.
+enum Content {
+    Text(String),
+    Doubles(Numbers),
 }
 
 /// The rows of a table that are not empty, in their order.
@@ -48,9 +54,11 @@ pub fn open<'a>(path: &'a str, design: &'a Design, reading: &Reading) -> Result<
     let Some(first) = rows.next() else {
         return Err(Error::Invalid("found no rows, expected a table of poses".to_owned()).at(path, 1));
     };
-    let text = first.text.clone()?;
-    let (reader, is_row) = PoseRows::of(&text, first.line, path, design, reading)?;
-    rows.first = is_row.then_some(first);
+    let Row { line, content } = first;
+    let content = content?;
+    let text = if let Content::Text(text) = &content { text.as_str() } else { "" };
+    let (reader, is_row) = PoseRows::of(text, line, path, design, reading)?;
+    rows.first = is_row.then_some(Row { line, content: Ok(content) });
     Ok((reader, rows))
 }
 
@@ -67,12 +75,12 @@ impl Iterator for Rows<'_> {
             }
             self.line += 1;
             let line = self.line;
-            let text = array.row(line, &mut self.input).map_err(|fault| fault.at(self.path, line));
+            let content = array.row(line, &mut self.input).map_err(|fault| fault.at(self.path, line));
             // What a file ends before is missed once.
-            if text.is_err() && self.input.fill_buf().is_ok_and(<[u8]>::is_empty) {
+            if content.is_err() && self.input.fill_buf().is_ok_and(<[u8]>::is_empty) {
                 self.line = array.count;
             }
-            return Some(Row { line, text });
+            return Some(Row { line, content: content.map(Content::Doubles) });
         }
         loop {
             let mut bytes = Vec::new();
@@ -83,7 +91,7 @@ impl Iterator for Rows<'_> {
                 Ok(0) => return None,
                 Err(fault) => {
                     let fault = Error::Io { path: self.path.to_owned(), message: fault.to_string() };
-                    return Some(Row { line, text: Err(fault) });
+                    return Some(Row { line, content: Err(fault) });
                 }
                 Ok(_) => {}
             }
@@ -100,7 +108,7 @@ impl Iterator for Rows<'_> {
             if text.as_ref().is_ok_and(|text| text.trim().is_empty()) {
                 continue;
             }
-            return Some(Row { line, text });
+            return Some(Row { line, content: text.map(Content::Text) });
         }
     }
 }
@@ -126,6 +134,9 @@ impl Rows<'_> {
 impl Row {
     /// Returns the pose of the row.
     pub fn case(&self, reader: &PoseRows<'_>) -> Result<Case, Error> {
-        reader.case(self.text.as_ref().map_err(Clone::clone)?, self.line)
+        match self.content.as_ref().map_err(Clone::clone)? {
+            Content::Text(text) => reader.case(text, self.line),
+            Content::Doubles((row, count)) => reader.case_of_doubles(&row[..*count], self.line),
+        }
     }
 }
