@@ -4,7 +4,9 @@ import json
 import math
 import tomllib
 
-from mechanism import KEYS, matrix, system_of
+from linkage_files import Planar
+from linkages import system_of
+from mechanism import KEYS, matrix
 from motions import difference, dot
 from quantities import Refused, Unreadable, is_exact, items, number, require
 from rounded import rotation_near, rotation_of
@@ -90,6 +92,8 @@ class File:
     def cases(self, verb):
         """The data of every case, each as a function, as some have none."""
         document, mechanism = self.document, self.document["mechanism"]
+        if mechanism["kind"] == "linkage":
+            return Planar(self).cases()
         if mechanism["kind"] == "platform":
             base, plate = ([[*map(self.length, point)] for point in mechanism[key]] for key in ("base", "plate"))
             of_legs = lambda legs: {"mechanism": {

@@ -12,7 +12,7 @@ STEPS = 6  # of Newton's method, from 53 bits
 
 def lengthened(system):
     """The loop with rotations about axes that nothing distinguishes behind its last link, up to six unknowns."""
-    if system.size >= 6:
+    if system.size >= system.equations:
         return system
     parts = [part for pair in zip(system.kinds, system.links) for part in pair]
     for k in range(6 - system.size):
@@ -24,7 +24,7 @@ def lengthened(system):
 
 def own_modes(system, modes, item, *others):
     """Returns the modes of the loop itself among those of the longer one: there are as many as points of the second item, if there is one."""
-    if system.size >= 6:
+    if system.size >= system.equations:
         require(not others, f"proof: found {1 + len(others)} items, where one bounds the number of solutions")
         return modes
     require(len(others) <= 1, f"proof: found {1 + len(others)} items, expected one or two")

@@ -16,7 +16,7 @@ from curve import curve
 from distance import distance
 from files import is_about
 from geometry import geometry
-from mechanism import system_of
+from kernel import kernel, system_of
 from polynomial import derived
 from quantities import Refused, expect, fields, items, require, whole
 from real_zeros import real_zeros
@@ -90,7 +90,7 @@ def regular(system, data, item, modes):
 
 # Items that bound the number of all solutions; that have a list of their own; that decide whether a loop moves.
 BOUNDS = {"general-bound": general, "geometry-bound": geometry, "eliminant": eliminant.most_solutions}
-LISTS = {"own-eliminant": eliminant.own_eliminant, "distance": distance, "real-zeros": real_zeros}
+LISTS = {"own-eliminant": eliminant.own_eliminant, "distance": distance, "real-zeros": real_zeros, "kernel": kernel}
 MOTIONS = {"general-bound": immobile, "eliminant": eliminant.immobile, "regular": regular, "curve": curve}
 VERBS = {"solve": solved, "derive": functools.partial(derived, solved), "mobility": moving, "conditions": four_joints}
 

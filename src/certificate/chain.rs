@@ -300,27 +300,30 @@ impl ChainClosure {
     /// Returns whether unknown k differs by more than a radius; `form` 1 adds pi to the other one, 2 changes its sign.
     fn are_far(&self, k: usize, form: u8, one: &Ball, other: &Ball, radius: &Rational) -> bool {
         let ((x, y), (u, v)) = (&one.centre[k], &other.centre[k]);
-        let (re, im) = if form == 2 {
+        let difference = if form == 2 {
             (Rational::from(x + u), Rational::from(y + v))
         } else {
             (Rational::from(x - u), Rational::from(y - v))
         };
-        if im.abs() > *radius {
-            return true;
-        }
-        if self.variables[k] == Variable::Translation {
-            return re.abs() > *radius;
-        }
-        let halves = i32::from(form == 1);
-        if Rational::from(re.abs_ref()) > 6 * MOST_TURNS - 4 {
-            return false;
-        }
-        let pi = Float::with_val(PI_BITS, Constant::Pi).to_rational().unwrap_or_default();
-        // pi is off by less than 1e-150, and so are its small multiples.
-        let more = radius + Rational::from_f64(1e-140).unwrap_or_default();
-        (-MOST_TURNS..=MOST_TURNS).all(|turn| {
-            let off = &re - Rational::from(&pi * (2 * turn + halves));
-            off.abs() > more
-        })
+        let halves = (self.variables[k] != Variable::Translation).then(|| i32::from(form == 1));
+        are_far(difference, halves, radius)
     }
+}
+
+/// Returns whether a difference is larger than a radius; that of angles, which have a number of half-turns that are subtracted, modulo 2 pi.
+pub(super) fn are_far((re, im): (Rational, Rational), halves: Option<i32>, radius: &Rational) -> bool {
+    if im.abs() > *radius {
+        return true;
+    }
+    let Some(halves) = halves else { return re.abs() > *radius };
+    if Rational::from(re.abs_ref()) > 6 * MOST_TURNS - 4 {
+        return false;
+    }
+    let pi = Float::with_val(PI_BITS, Constant::Pi).to_rational().unwrap_or_default();
+    // pi is off by less than 1e-150, and so are its small multiples.
+    let more = radius + Rational::from_f64(1e-140).unwrap_or_default();
+    (-MOST_TURNS..=MOST_TURNS).all(|turn| {
+        let off = &re - Rational::from(&pi * (2 * turn + halves));
+        off.abs() > more
+    })
 }

@@ -8,6 +8,8 @@ use super::distance;
 use super::families::check_families;
 use super::fault::{Fault, refused, shortened, unreadable};
 use super::isolation::{Closed, proved_modes};
+use super::kernel;
+use super::linkage::{LinkageClosure, data_of_linkage};
 use super::mode::Ball;
 use super::moving::{CURVE, follows_a_curve, mobility};
 use super::platform::PlatformClosure;
@@ -15,8 +17,8 @@ use super::polynomial;
 use super::real_zeros;
 use super::record::{Claim, Record, count, fields};
 use super::strict::Strict;
-use crate::catalogue::Chains;
 use crate::catalogue::entry::{Case, Design, Entry};
+use crate::catalogue::{Any, Chains, Format, Options, any_from_text};
 use serde_json::{Deserializer, Value};
 use std::fmt;
 
@@ -80,7 +82,7 @@ impl fmt::Display for Holds {
 ///
 /// # Errors
 /// [`Fault`] names the first item that does not hold, or what cannot be read.
-pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> {
+pub fn check(certificate: &Value, file: Option<&Any>) -> Result<Holds, Fault> {
     let record = Record::read(certificate)?;
     let verbs = ["solve", "mobility", "derive", "conditions"];
     if !verbs.contains(&record.claim.verb.as_str()) || record.claim.proof != "proved" {
@@ -93,6 +95,16 @@ pub fn check(certificate: &Value, file: Option<&Entry>) -> Result<Holds, Fault> 
         let found = check_families(&record.data, &record.claim.status, claim, record.modes.len(), &record.proof);
         return found.map(Holds::Families);
     }
+    let is_linkage = record.data.get("mechanism").and_then(|own| own.get("kind")) == Some(&Value::from("linkage"));
+    if is_linkage && record.claim.verb == "solve" {
+        return of_linkage(record, file);
+    }
+    // No data of other kinds are those of a linkage.
+    let file = match file {
+        Some(Any::Entry(entry)) => Some(&**entry),
+        None => None,
+        Some(_) => return refused("file: the data of the certificate are those of no case of the file"),
+    };
     if record.claim.verb == "mobility" {
         return of_motion(record, file).map(Holds::Mobility);
     }
@@ -275,6 +287,44 @@ fn of_self_motion(
     Ok(Holds::SelfMotion)
 }
 
+/// Checks a certificate of a linkage in the plane: theorem 13.
+fn of_linkage(record: Record, file: Option<&Any>) -> Result<Holds, Fault> {
+    let text = Value::Object(record.data.clone()).to_string();
+    let read = any_from_text(&text, "data", Format::Json, &Options::default());
+    let Any::Linkage(own) = read.map_err(|error| Fault::Unreadable(error.to_string()))? else {
+        return refused("data: only linkages in the plane are covered");
+    };
+    let ([case], data) = (own.cases.as_slice(), Value::Object(record.data)) else {
+        return unreadable("data: found several cases, expected one");
+    };
+    let closure = LinkageClosure::of(&own.linkage, &case.given)?;
+    check_data(data_of_linkage(&own, case), &data)?;
+    let is_own = |file: &Any| match file {
+        Any::Linkage(file) => file.cases.iter().any(|case| data_of_linkage(file, case).is_ok_and(|one| one == data)),
+        _ => false,
+    };
+    if file.is_some_and(|file| !is_own(file)) {
+        return refused("file: the data of the certificate are those of no case of the file");
+    }
+    if let Some(at) = record.modes.iter().position(|mode| mode.multiplicity != 1) {
+        return refused(format!("mode {}: a ball of an isolated simple solution counts once", at + 1));
+    }
+    let balls: Vec<Ball> = record.modes.into_iter().map(|mode| mode.ball).collect();
+    closure.proved(&balls)?;
+    match record.proof.as_slice() {
+        [item] if item.get("kind").and_then(Value::as_str) == Some(kernel::KIND) => {
+            kernel::check_kernel(&closure, &balls, item)?;
+        }
+        _ => return refused("proof: linkages in the plane are covered by one item of theorem 13"),
+    }
+    let (complex, real) = (balls.len(), balls.iter().filter(|ball| ball.real).count());
+    if record.claim.complex != Some(complex) || record.claim.real != Some(real) {
+        return refused(format!("claim: other numbers than {complex} solutions, {real} of them real, are proved"));
+    }
+    check_status(&record.claim, real)?;
+    Ok(Holds::Solutions { complex, real })
+}
+
 /// Checks a certificate of `mobility`.
 fn of_motion(record: Record, file: Option<&Entry>) -> Result<usize, Fault> {
     if record.data.contains_key("input") {
@@ -321,7 +371,7 @@ pub fn closed(entry: &Entry, case: &Case) -> Result<Closed, Fault> {
 /// [`Fault::Unreadable`] if the text consists of no certificates.
 pub fn check_all(
     text: &str,
-    file: Option<&Entry>,
+    file: Option<&Any>,
     mut each: impl FnMut(usize, Result<Holds, Fault>),
 ) -> Result<(), Fault> {
     let mut found = 0;

@@ -150,7 +150,7 @@ fn screw(joint: &ScrewJoint) -> Result<Value, String> {
 }
 
 /// Returns the whole numbers without a common factor in the ratio of these rational numbers.
-fn primitive(direction: &[Rational; 3]) -> [Integer; 3] {
+pub(super) fn primitive(direction: &[Rational; 3]) -> [Integer; 3] {
     let below = direction.iter().fold(Integer::from(1), |all, x| all.lcm(x.denom()));
     let whole = direction.each_ref().map(|x| Rational::from(x * &below).numer().clone());
     let common = whole.iter().fold(Integer::new(), Integer::gcd);

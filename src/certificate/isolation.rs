@@ -54,7 +54,8 @@ pub enum Closed {
     Platform(Box<PlatformClosure>),
 }
 
-fn all<const N: usize>(closure: &impl Closure<N>, balls: &[Ball]) -> Result<(), Fault> {
+/// As [`proved_modes`].
+pub(super) fn all<const N: usize>(closure: &impl Closure<N>, balls: &[Ball]) -> Result<(), Fault> {
     for (index, ball) in balls.iter().enumerate() {
         let at = index + 1;
         if ball.centre.len() != N {

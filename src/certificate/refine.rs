@@ -3,7 +3,8 @@
 use super::chain::ChainClosure;
 use super::doubled::Doubled;
 use super::enclosing::{Enclosing, near_inverse};
-use super::isolation::{Closed, Closure, Longer, Point, holds_one, proved_modes};
+use super::isolation::{Closed, Closure, Longer, Point, all as proved, holds_one};
+use super::linkage::{LinkageClosure, UNKNOWNS};
 use super::mode::Ball;
 use super::nearby::Nearby;
 use crate::algebra::ring::Ring;
@@ -19,6 +20,8 @@ const ENOUGH: f64 = 1e-25;
 const DECIMALS: u32 = 30;
 /// Radii that are tried, as exponents of ten: the largest one is the easiest to check in f64.
 const RADII: [u32; 8] = [8, 9, 10, 12, 14, 16, 20, 25];
+/// Radii of linkages: their vectors have to be independent in whole balls, however long those of theorem 13 are.
+const SMALL_RADII: [u32; 2] = [20, 25];
 /// Factor by which the ball of the proof may be enlarged: another checker may bound the second derivatives less tightly.
 const ROOM: u32 = 10;
 
@@ -33,27 +36,45 @@ pub type Near = (Vec<Complex<f64>>, bool);
 #[must_use]
 pub fn balls(closed: &Closed, near: &[Near]) -> Option<Vec<Ball>> {
     match closed {
-        Closed::Chain(closure) => all(closed, &**closure, near),
-        Closed::Platform(closure) => all(closed, &**closure, near),
+        Closed::Chain(closure) => all(&**closure, near, &RADII),
+        Closed::Platform(closure) => all(&**closure, near, &RADII),
     }
 }
 
-fn all<const N: usize>(closed: &Closed, closure: &impl Closure<N>, near: &[Near]) -> Option<Vec<Ball>> {
+/// As [`balls`], of a linkage.
+#[must_use]
+pub fn balls_of_linkage(closure: &LinkageClosure, near: &[Near]) -> Option<Vec<Ball>> {
+    let padded: Vec<Near> = near
+        .iter()
+        .map(|(x, real)| {
+            let mut x = x.clone();
+            x.resize(UNKNOWNS, Complex::default());
+            (x, *real)
+        })
+        .collect();
+    let mut balls = all(closure, &padded, &SMALL_RADII)?;
+    for ball in &mut balls {
+        ball.centre.truncate(closure.size());
+    }
+    Some(balls)
+}
+
+fn all<const N: usize>(closure: &impl Closure<N>, near: &[Near], radii: &[u32]) -> Option<Vec<Ball>> {
     let centres: Vec<Vec<(Rational, Rational)>> =
         near.iter().map(|(x, real)| refined(closure, x, *real)).collect::<Option<_>>()?;
-    (0..RADII.len()).find_map(|start| {
+    (0..radii.len()).find_map(|start| {
         let one = |(centre, (_, real)): (&Vec<(Rational, Rational)>, &Near)| {
             let ball = |exponent: &u32| {
                 let radius = Rational::from((Integer::from(1), Integer::from(10).pow(*exponent)));
                 Ball { centre: centre.clone(), radius, real: *real }
             };
-            let by = |proves: &dyn Fn(&Ball) -> bool| RADII[start..].iter().map(ball).find(|ball| proves(ball));
+            let by = |proves: &dyn Fn(&Ball) -> bool| radii[start..].iter().map(ball).find(|ball| proves(ball));
             by(&|ball| [ball, &wider(ball)].iter().all(|ball| holds_one::<N, Nearby>(closure, ball)))
                 .or_else(|| by(&|ball| [ball, &wider(ball)].iter().all(|ball| holds_one::<N, Doubled>(closure, ball))))
                 .or_else(|| by(&|ball| [ball, &wider(ball)].iter().all(|ball| holds_one::<N, Longer>(closure, ball))))
         };
         let balls: Vec<Ball> = centres.iter().zip(near).map(one).collect::<Option<_>>()?;
-        proved_modes(closed, &balls).is_ok().then_some(balls)
+        proved(closure, &balls).is_ok().then_some(balls)
     })
 }
 

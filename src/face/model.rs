@@ -191,7 +191,7 @@ pub fn mobility(name: &str) -> Result<Value> {
 /// # Errors
 /// For text that is no certificate, and for a file that cannot be read.
 pub fn verify(certificates: &str, file: Option<&str>) -> Result<Value> {
-    let entry = file.map(|file| load(file, &Options::default())).transpose()?;
+    let entry = file.map(|file| load_any(file, &Options::default())).transpose()?;
     let mut found = Vec::new();
     let read = check_all(certificates, entry.as_ref(), |_, outcome| {
         let mut answer = json!({

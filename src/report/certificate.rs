@@ -4,16 +4,19 @@ use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::Ring;
 use crate::assembly::{Assembly, Roots, Solver, Workspace};
 use crate::catalogue::entry::{Case, Design, Entry};
+use crate::catalogue::{LinkageCase, LinkageFile};
 use crate::certificate::{
-    Ball, ChainClosure, Closed, FAMILIES, FORMAT, Fault, Listed, Near, VERSION, balls, check, claim_of_families,
-    closed, data_of, data_of_loop, proof_by_distance, proof_of, proof_of_motion, proof_of_own, proof_of_points,
-    proof_of_polynomial, proof_of_real_list, proof_of_rest, proof_of_self_motion, proved_modes,
+    Ball, ChainClosure, Closed, FAMILIES, FORMAT, Fault, LinkageClosure, Listed, Near, VERSION, balls,
+    balls_of_linkage, check, claim_of_families, closed, data_of, data_of_linkage, data_of_loop, proof_by_distance,
+    proof_of, proof_of_kernel, proof_of_motion, proof_of_own, proof_of_points, proof_of_polynomial, proof_of_real_list,
+    proof_of_rest, proof_of_self_motion, proved_modes,
 };
 use crate::conditions::four_bar::{self, FourBar};
 use crate::derivation::Derivation;
 use crate::derivation::transference::Variables;
 use crate::kinematics::joint::Variable;
 use crate::kinematics::motion::Motion;
+use crate::linkage::answer::LinkageAnswer;
 use crate::mechanism::{FullMode, Mechanism, Solution};
 use crate::mobility::Mobility;
 use crate::verdict::Status;
@@ -21,6 +24,8 @@ use num_complex::Complex;
 use rug::{Integer, Rational, ops::Pow};
 use serde_json::{Value, json};
 
+/// The program that wrote a certificate.
+const PROGRAM: &str = concat!("looproot ", env!("CARGO_PKG_VERSION"));
 /// The reason where no solution is counted and none can be shown.
 const NOTHING_SHOWN: &str = "no complex solution is known well enough to show what the data are";
 /// Factor by which the radius of a solution that is not counted is smaller than it may be: where nothing is in reach, lengths may differ by
@@ -80,9 +85,44 @@ fn certificate_of_self_motion(entry: &Entry, number: usize, case: &Case, solutio
     accepted(&info_of(entry, number), &data, &claim, &[], &[proof])
 }
 
+/// Returns the certificate of one case of a linkage, which the checker of [`crate::certificate`] accepts.
+///
+/// # Errors
+/// A clause that says why there is none.
+pub fn certificate_of_linkage(
+    file: &LinkageFile,
+    number: usize,
+    case: &LinkageCase,
+    answer: &LinkageAnswer,
+) -> Result<Value, String> {
+    let verdict = &answer.verdict;
+    if !verdict.proof.is_proved() || !matches!(verdict.status, Status::Complete | Status::Unreachable) {
+        return Err("the answer is not proved, or has a self-motion".to_owned());
+    }
+    if !verdict.complex_complete {
+        return Err("not all complex assemblies are listed".to_owned());
+    }
+    if answer.modes.len() != verdict.complex {
+        return Err("multiple assemblies are not covered".to_owned());
+    }
+    let data = data_of_linkage(file, case)?;
+    let closure = LinkageClosure::of(&file.linkage, &case.given).map_err(|fault| words(&fault))?;
+    let near: Option<Vec<Near>> = answer
+        .modes
+        .iter()
+        .map(|mode| Some((closure.unknowns(&|body| mode.bodies[body].0, &|joint| mode.joints[joint])?, mode.real)))
+        .collect();
+    let balls = near.and_then(|near| balls_of_linkage(&closure, &near));
+    let balls = balls.ok_or("an assembly is too ill conditioned for a ball of its own")?;
+    let proof = proof_of_kernel(&closure, &balls).ok_or("no matrix that is tried has a kernel as small as the list")?;
+    let claim = solved(balls.len(), balls.iter().filter(|ball| ball.real).count());
+    let info = json!({ "program": PROGRAM, "name": file.heading.name, "title": file.heading.title, "case": number });
+    accepted(&info, &data, &claim, &balls, &[proof])
+}
+
 /// Returns what no checker reads.
 fn info_of(entry: &Entry, number: usize) -> Value {
-    json!({ "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": entry.name, "title": entry.title, "case": number })
+    json!({ "program": PROGRAM, "name": entry.name, "title": entry.title, "case": number })
 }
 
 /// Returns the claim of an answer that counts all its solutions, a ball around each, and the item that bounds their number.
@@ -253,8 +293,7 @@ pub fn certificate_of_motion(entry: &Entry, answer: &Mobility) -> Result<Value, 
         if dimension > 0 { proof_of_motion(entry, &configurations, &found) } else { proof_of_rest(entry, &found) };
     let (proof, balls) = found
         .ok_or_else(|| format!("no theorem of docs/certificate.md applies: the code is {}", answer.code.word()))?;
-    let info =
-        json!({ "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": entry.name, "title": entry.title });
+    let info = json!({ "program": PROGRAM, "name": entry.name, "title": entry.title });
     let claim = json!({
         "verb": "mobility",
         "status": if dimension == 0 { "immobile" } else { "mobile" },
@@ -296,8 +335,7 @@ pub fn certificate_of_conditions(theorem: &FourBar) -> Result<Value, String> {
         // The program numbers joint 4 behind joint 1 where there are no others.
         motion: vec![theorem.pair.f.substitute(Variables::Y, &x(3))],
     });
-    let info =
-        json!({ "program": concat!("looproot ", env!("CARGO_PKG_VERSION")), "name": "4R", "title": "General 4R loop" });
+    let info = json!({ "program": PROGRAM, "name": "4R", "title": "General 4R loop" });
     let claim = claim_of_families(&families);
     accepted(&info, &json!({ "joints": 4 }), &claim, &[], &[json!({ "kind": FAMILIES })])
 }

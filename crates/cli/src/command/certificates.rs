@@ -1,13 +1,15 @@
 //! The file of `--certificate`.
 
 use looproot::internal::catalogue::entry::{Case, Entry};
+use looproot::internal::catalogue::{LinkageCase, LinkageFile};
 use looproot::internal::conditions::four_bar::FourBar;
 use looproot::internal::derivation::Derivation;
 use looproot::internal::error::Error;
+use looproot::internal::linkage::answer::LinkageAnswer;
 use looproot::internal::mechanism::Solution;
 use looproot::internal::mobility::Mobility;
 use looproot::internal::report::certificate::{
-    certificate, certificate_of_conditions, certificate_of_motion, certificate_of_polynomial,
+    certificate, certificate_of_conditions, certificate_of_linkage, certificate_of_motion, certificate_of_polynomial,
 };
 use looproot::internal::report::model::case_noun;
 use std::fs::File;
@@ -35,6 +37,17 @@ impl Certificates {
                 Ok(())
             }
         }
+    }
+
+    /// Writes the certificate of an answer about a linkage, or reports on stderr why there is none.
+    pub fn add_linkage(
+        &mut self,
+        file: &LinkageFile,
+        number: usize,
+        case: &LinkageCase,
+        answer: &LinkageAnswer,
+    ) -> Result<(), Error> {
+        self.add_one(certificate_of_linkage(file, number, case, answer))
     }
 
     /// Writes the certificate of a closure polynomial, or reports on stderr why there is none.

@@ -1,6 +1,7 @@
 //! `looproot solve` for linkages.
 
 use super::arguments::SolveOptions;
+use super::certificates::Certificates;
 use super::exit::{Exit, Fault};
 use super::output::Output;
 use super::solve::stop_on_interrupt;
@@ -25,6 +26,7 @@ pub fn run(options: &SolveOptions, file: &LinkageFile, output: Output) -> Result
     let mut output = output;
     let mut exit = Exit::Complete;
     let mut results = Vec::new();
+    let mut certificates = options.certificate.as_ref().map(|path| Certificates::new(path));
     for index in wanted {
         if stop.load(Ordering::Relaxed) {
             exit = Exit::Interrupted;
@@ -38,6 +40,9 @@ pub fn run(options: &SolveOptions, file: &LinkageFile, output: Output) -> Result
         // Complex assemblies that were asked for and not looked for, or that form curves.
         if options.complex && answer.verdict.is_of_real_ones() {
             exit = exit.max(Exit::NotProved);
+        }
+        if let Some(certificates) = &mut certificates {
+            certificates.add_linkage(file, index + 1, case, &answer)?;
         }
         if options.json || options.jsonl {
             let result = report::result(file, case, index + 1, &answer, options.complex);
@@ -59,6 +64,9 @@ pub fn run(options: &SolveOptions, file: &LinkageFile, output: Output) -> Result
     }
     if options.json || options.scene {
         written(options, report::json(file, &results), &mut output)?;
+    }
+    if let Some(certificates) = &mut certificates {
+        certificates.close()?;
     }
     output.writer.flush()?;
     Ok(exit)

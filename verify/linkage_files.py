@@ -1,0 +1,120 @@
+"""Linkages in the plane as the data of certificates write them, and those of mechanism files."""
+import functools
+from math import gcd, lcm
+
+from flint import fmpq, fmpq_mat
+
+from mechanism import cos_sin
+from quantities import Refused, is_exact, number, require
+
+
+def plane(x, y):
+    """The number x + i y as a matrix; its conjugate is the transpose."""
+    require(is_exact((x, y)), "data: an irrational number of a linkage has no certificate")
+    return fmpq_mat([[x, -y], [y, x]])
+
+
+ONE = plane(1, 0)
+
+
+def over_length(u, other):
+    """u over the root of the product of the squares of both lengths, which has to be rational: then `u * other'` has the length 1."""
+    square = u.det() * other.det()
+    require(square != 0 and square.p.is_square() and square.q.is_square(), "data: a direction has an irrational length")
+    return u * fmpq(square.q.isqrt(), square.p.isqrt())
+
+
+def texts(point):
+    return [str(point[0, 0]), str(point[1, 0])]
+
+
+def primitive(direction):
+    """The whole numbers without a common factor in the ratio of the coordinates."""
+    x, y = direction[0, 0], direction[1, 0]
+    require((x, y) != (0, 0), "data: a direction is 0")
+    whole = [int(c * lcm(int(x.q), int(y.q))) for c in (x, y)]
+    return [str(c // gcd(*whole)) for c in whole]
+
+
+def written(ground, pairs, given):
+    """The data in the one form of certificates, so that every number counts. Bodies are numbered from 0, the ground, as the joints name
+    them. A body has the axes of the file, and its origin at its first joint."""
+    numbers, origins, bodies, joints = {ground: "0"}, {}, {"0": {}}, []
+    for k, (kind, of, points, along) in enumerate(pairs, 1):
+        for body, point in zip(of, points):
+            own = numbers.setdefault(body, str(len(numbers)))
+            bodies.setdefault(own, {})[str(k)] = texts(point - origins.setdefault(own, point))
+        joints.append({"name": str(k), "type": kind, "of": [numbers[body] for body in of],
+                       **({"along": [*map(primitive, along)]} if kind == "P" else {})})
+    held = {str(k + 1): value(pairs[k][0], own) for k, own in given.items()}
+    mechanism = {"kind": "linkage", "space": "plane", "ground": "0", "joints": joints, "bodies": bodies}
+    return {"mechanism": mechanism, **({"input": [{"given": held}]} if held else {})}
+
+
+def value(kind, given):
+    """The given value of a joint: a distance, or the tangent of half an angle."""
+    key, = given
+    require(key == ("distance" if kind == "P" else "tan_half"), "data: a value of another kind than that of its joint")
+    text = given[key]
+    own = "inf" if kind == "R" and text == "inf" else number(text)
+    require(own == "inf" or is_exact([own]), "data: an irrational number of a linkage has no certificate")
+    return {key: str(own)}
+
+
+class Planar:
+    """A mechanism file of a linkage. `file` has its units."""
+
+    def __init__(self, file):
+        self.file, self.document, self.mechanism = file, file.document, file.document["mechanism"]
+        require(self.mechanism["space"] == "plane", "file: only linkages in the plane have certificates")
+
+    def point(self, point):
+        return plane(*(number(self.file.length(x)) for x in (point if isinstance(point, list) else [point, "0"])))
+
+    def joints(self):
+        joints, bodies = self.mechanism["joints"], self.mechanism["bodies"]
+        if joints != "shared points":
+            return joints
+        first = self.mechanism["ground"]
+        order, at = [first, *(body for body in bodies if body != first)], {}
+        for body in order:
+            for point in bodies[body]:
+                at.setdefault(point, []).append(body)
+        joints = []
+        for point, of in at.items():
+            number = 1
+            for other in of[1:]:
+                name = point if number == 1 else f"{point}{number}"
+                while number > 1 and name in at:
+                    number += 1
+                    name = f"{point}{number}"
+                number += 1
+                joints.append({"name": name, "type": "R", "of": [of[0], other], "at": point})
+        return joints
+
+    def pair(self, joint):
+        kind, of, at = joint["type"], joint["of"], joint.get("at", joint["name"])
+        require(kind in ("R", "P"), "file: only joints R and P of linkages have certificates")
+        names = at if isinstance(at, list) else [at, at]
+        points = [self.point(self.mechanism["bodies"][body][name]) for body, name in zip(of, names)]
+        along = joint.get("along")
+        lines = [] if kind == "R" else along if isinstance(along[0], list) else [along, along]
+        return kind, of, points, [plane(*map(number, line)) for line in lines]
+
+    def given(self, kind, given):
+        if kind == "P":
+            return {"distance": self.file.length(given["distance"] if isinstance(given, dict) else given)}
+        cos, sin = cos_sin(self.file.angle(given if isinstance(given, dict) else {"angle": given}, "angle"))
+        require(is_exact((cos, sin)), "file: an angle without a rational half-angle tangent has no certificate")
+        return {"tan_half": "inf" if cos == -1 else str(sin / (1 + cos))}
+
+    def case(self, values):
+        require("body" not in values, "file: the place of a body has no certificate")
+        own = {values["joint"]: values} if "joint" in values else {}
+        joints, pairs = self.joints(), [*map(self.pair, self.joints())]
+        names = [joint["name"] for joint in joints]
+        given = {names.index(name): value for name, value in {**values.get("given", {}), **own}.items()}
+        return written(self.mechanism["ground"], pairs, {k: self.given(pairs[k][0], value) for k, value in given.items()})
+
+    def cases(self):
+        return [functools.partial(self.case, values) for values in self.document.get("input", [{}])]
