@@ -13,7 +13,7 @@ from flint import fmpq
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LOOPROOT = os.environ["LOOPROOT"]
 VERIFY = os.environ.get("VERIFY", str(ROOT / "verify" / "verify.py"))
-ENTRIES = ["arm/manocha_canny_1994", "arm/puma560", "arm/ur5", "arm/mc16_1deg", "arm/general_02real", "chain/arm_3r3p", "chain/srrr",
+ENTRIES = ["linkage/3rpr", "linkage/crank_slider", "linkage/eight_bar_03", "linkage/steering_optimum", "arm/manocha_canny_1994", "arm/puma560", "arm/ur5", "arm/mc16_1deg", "arm/general_02real", "chain/arm_3r3p", "chain/srrr",
            "chain/arm_ruru", "chain/ik_puma_type", "loop/rrsrr", "loop/cccr_1_angle", "loop/rrrrrrr_every_input",
            "platform/points_6_3", "platform/affine", "platform/hexapod", "platform/similar", "chain/crcr", "chain/arm_5rp_parallel_pair", "arm/chain_cc", "arm/chain_rrr_elbow", "chain/structure_5r",
            "overconstrained/planar_4r", "overconstrained/dietmaier_a", "overconstrained/dietmaier_broken", "overconstrained/rrcrp_b"]
@@ -496,7 +496,7 @@ def test_without_python_flint_one_line_says_how_to_get_it():
 
 @pytest.mark.parametrize("entry", ["arm/puma560", "chain/crcr", "loop/rrsrr", "overconstrained/bennett_a",
                                    "overconstrained/bennett_broken", "as_built", "arm/chain_cc", "overconstrained/dietmaier_a-motion",
-                                   "chain/structure_5r", "chain/ccc", *NOTHING_COUNTED])
+                                   "chain/structure_5r", "chain/ccc", "linkage/3rpr", "linkage/crank_slider", *NOTHING_COUNTED])
 def test_no_other_number_may_change(certificates, as_built, far, capsys, entry):
     """What is under `aid`, radii and centres may stay valid; all other changes are refused by both checkers."""
     sys.path.insert(0, str(pathlib.Path(__file__).parent))

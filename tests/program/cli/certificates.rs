@@ -251,3 +251,25 @@ fn the_roots_of_a_closure_polynomial_are_certified() {
     let said = run(&["derive", "platform/affine", "-q", "--certificate", &file("certificates/none_polynomial", "")]);
     assert!(said.err.contains("no certificate"), "{}", said.err);
 }
+
+#[test]
+fn the_assemblies_of_linkages_are_certified() {
+    for (entry, says) in [
+        ("linkage/four_bar_coupler", "2 solutions, 2 of them real"),
+        ("linkage/3rpr", "6 solutions, 4 of them real"),
+        ("linkage/crank_slider", "2 solutions, 2 of them real"),
+    ] {
+        let path = certified("solve", entry);
+        assert_eq!(kind(&path), "kernel", "{entry}");
+        let checked = run(&["verify", &path, "--file", entry]);
+        assert!(checked.code == 0 && checked.out.contains(says), "{entry}: {}", checked.out);
+        let other = run(&["verify", &path, "--file", "linkage/watt_1"]);
+        assert!(other.code == 2 && other.out.contains("file"), "{entry}: {}", other.out);
+        let mut forged = json(&fs::read_to_string(&path).unwrap());
+        let left = forged["modes"].as_array_mut().map(|modes| modes.pop().map(|_| modes.len())).unwrap().unwrap();
+        forged["claim"]["complex"] = json!(left);
+        forged["proof"][0]["value"] = json!(left);
+        let checked = run(&["verify", &file("certificates/forged_linkage", forged.to_string())]);
+        assert!(checked.code == 2 && checked.out.contains("kernel"), "{entry}: {}", checked.out);
+    }
+}
