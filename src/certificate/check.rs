@@ -99,12 +99,7 @@ pub fn check(certificate: &Value, file: Option<&Any>) -> Result<Holds, Fault> {
     if is_linkage && record.claim.verb == "solve" {
         return of_linkage(record, file);
     }
-    // No data of other kinds are those of a linkage.
-    let file = match file {
-        Some(Any::Entry(entry)) => Some(&**entry),
-        None => None,
-        Some(_) => return refused("file: the data of the certificate are those of no case of the file"),
-    };
+    let file = file.map(entry_in).transpose()?;
     if record.claim.verb == "mobility" {
         return of_motion(record, file).map(Holds::Mobility);
     }
@@ -114,11 +109,9 @@ pub fn check(certificate: &Value, file: Option<&Any>) -> Result<Holds, Fault> {
     };
     let own = Value::Object(record.data);
     check_data(data_of(&entry, case), &own)?;
-    if let Some(file) = file {
-        let is_own = |case| data_of(file, case).is_ok_and(|data| data == own);
-        if !file.cases.iter().any(is_own) {
-            return refused("file: the data of the certificate are those of no case of the file");
-        }
+    let is_own = |file: &Entry| file.cases.iter().any(|case| data_of(file, case).is_ok_and(|data| data == own));
+    if file.is_some_and(|file| !is_own(file)) {
+        return refused(OTHER_FILE);
     }
     let closed = closed(&entry, case)?;
     if let Some(dimension) = record.claim.self_motion {
@@ -287,6 +280,14 @@ fn of_self_motion(
     Ok(Holds::SelfMotion)
 }
 
+/// The fault of a certificate that is about another file.
+const OTHER_FILE: &str = "file: the data of the certificate are those of no case of the file";
+
+/// Returns the arm, loop or platform of a file: no other file has data of these kinds.
+fn entry_in(file: &Any) -> Result<&Entry, Fault> {
+    if let Any::Entry(entry) = file { Ok(entry) } else { refused(OTHER_FILE) }
+}
+
 /// Checks a certificate of a linkage in the plane: theorem 13.
 fn of_linkage(record: Record, file: Option<&Any>) -> Result<Holds, Fault> {
     let text = Value::Object(record.data.clone()).to_string();
@@ -304,7 +305,7 @@ fn of_linkage(record: Record, file: Option<&Any>) -> Result<Holds, Fault> {
         _ => false,
     };
     if file.is_some_and(|file| !is_own(file)) {
-        return refused("file: the data of the certificate are those of no case of the file");
+        return refused(OTHER_FILE);
     }
     if let Some(at) = record.modes.iter().position(|mode| mode.multiplicity != 1) {
         return refused(format!("mode {}: a ball of an isolated simple solution counts once", at + 1));

@@ -9,7 +9,7 @@ use super::record::{count, fields};
 use crate::algebra::ring::Ring;
 use rug::Float;
 use serde_json::{Value, json};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// The kind of the item.
 pub(super) const KIND: &str = "kernel";
@@ -98,7 +98,7 @@ fn shortest(closure: &LinkageClosure) -> Option<Vec<Equation>> {
     let mut found: HashMap<Vec<usize>, [Equation; 2]> = HashMap::new();
     for set in (0..1_u32 << columns).filter(|set| set.count_ones() as usize + 1 == loops) {
         let mut order: Vec<usize> = (0..columns).collect();
-        order.sort_by_key(|column| set >> column & 1 == 0);
+        order.sort_by_key(|column| (set >> column) & 1 == 0);
         let (rows, pivots) = eliminated(&closure.loops, &order);
         if pivots.len() < loops {
             return None;
@@ -168,12 +168,12 @@ fn nullity(equations: &[Equation], chosen: &[Monomial], enough: usize) -> usize 
 
 /// Returns the monomials that may be multiplied by every unknown.
 fn inner(closure: &LinkageClosure, chosen: &[Monomial]) -> Vec<Monomial> {
-    let places: HashMap<&Monomial, ()> = chosen.iter().map(|own| (own, ())).collect();
+    let places: HashSet<&Monomial> = chosen.iter().collect();
     let is_inner = |own: &&Monomial| {
         (0..closure.size()).all(|k| {
             let mut next = **own;
             next[k] += 1;
-            places.contains_key(&next)
+            places.contains(&next)
         })
     };
     chosen.iter().filter(is_inner).copied().collect()
