@@ -51,6 +51,8 @@ pub struct PoseRows<'a> {
     powers: Option<Vec<i32>>,
     /// Whether the numbers were doubles before they were decimals: their digits do not say how well they are known.
     are_doubles: bool,
+    /// Of rows that are objects, the readers of their numbers: of a matrix and of a quaternion.
+    plain: Option<Box<[Self; 2]>>,
 }
 
 impl<'a> PoseRows<'a> {
@@ -63,18 +65,11 @@ impl<'a> PoseRows<'a> {
         let reading = reading.clone();
         let first = first.trim_start_matches('\u{feff}').trim();
         if first.starts_with('{') {
-            return Ok((
-                Self {
-                    path,
-                    design,
-                    reading,
-                    form: Form::Objects,
-                    columns: Vec::new(),
-                    powers: None,
-                    are_doubles: false,
-                },
-                true,
-            ));
+            let of = |names: &[&str]| Self::of(&names.join(","), line, path, design, &reading).map(|(own, _)| own);
+            let plain = Some(Box::new([of(&MATRIX)?, of(&QUATERNION)?]));
+            let (columns, powers) = (Vec::new(), None);
+            let own = Self { path, design, reading, form: Form::Objects, columns, powers, are_doubles: false, plain };
+            return Ok((own, true));
         }
         let names: Vec<&str> = first.split(',').map(|name| name.trim().trim_matches('"')).collect();
         for (form, own) in
@@ -84,7 +79,8 @@ impl<'a> PoseRows<'a> {
             let Some(columns) = columns.filter(|columns| columns.len() == own.len()) else { continue };
             if (0..own.len()).all(|k| columns.iter().any(|(place, _)| *place == k)) {
                 let powers = columns.iter().map(|(place, unit)| power(form, *place, unit, &reading)).collect();
-                return Ok((Self { path, design, reading, form, columns, powers, are_doubles: false }, false));
+                let own = Self { path, design, reading, form, columns, powers, are_doubles: false, plain: None };
+                return Ok((own, false));
             }
         }
         let found: String = first.chars().take(60).collect();
@@ -111,10 +107,8 @@ impl<'a> PoseRows<'a> {
             let message = format!("found {found} values, expected {expected}");
             return Err(Error::Invalid(message).at(self.path, line));
         }
-        if let Some(((placement, warning), typed)) = self.of_decimals(&cells) {
-            let mut case = of_design(self.design, placement, line);
-            case.warnings.extend(warning);
-            return Ok(Case { typed: (!self.are_doubles).then_some(typed), ..case });
+        if let Some(case) = self.of_decimals(&cells, line) {
+            return Ok(case);
         }
         let mut values = vec![String::new(); cells.len()];
         for ((place, unit), cell) in self.columns.iter().zip(&cells) {
@@ -160,22 +154,37 @@ impl<'a> PoseRows<'a> {
         }
     }
 
-    /// Reads a pose in plain decimals, which need no exact numbers, with its warning and its tolerance.
-    fn of_decimals(&self, cells: &[&str]) -> Option<((Placement, Option<String>), Tolerance)> {
+    /// Reads a pose in plain decimals, which need no exact numbers. `None` where these have to tell, or to say what is wrong.
+    fn of_decimals(&self, cells: &[&str], line: usize) -> Option<Case> {
         let mut values = [Decimal::default(); 12];
         for (((place, _), power), cell) in self.columns.iter().zip(self.powers.as_ref()?).zip(cells) {
             values[*place] = Decimal::read(cell)?.shifted(*power);
         }
-        let placed = self.of_plain(&values.map(Plain::Typed))?;
+        let (placement, warning) = self.of_plain(&values.map(Plain::Typed))?;
         let least = |lengths: bool| {
             let own = (0..cells.len()).filter(|k| self.form.is_length(*k) == lengths);
             own.map(|k| values[k].last_digit()).fold(COARSEST, f64::min)
         };
         let factor = if self.form == Form::Quaternion { OF_QUATERNION } else { 1.0 };
-        Some((placed, Tolerance { length: least(true), angle: least(false) * factor }))
+        let typed = Tolerance { length: least(true), angle: least(false) * factor };
+        let mut case = of_design(self.design, placement, line);
+        case.warnings.extend(warning);
+        Some(Case { typed: (!self.are_doubles).then_some(typed), ..case })
+    }
+
+    /// Reads an object that holds nothing but a pose in plain decimals, without a tree of its values.
+    fn plain_object(&self, text: &str, line: usize) -> Option<Case> {
+        let [matrix, quaternion] = self.plain.as_deref()?;
+        if let Some(cells) = matrix_cells(text) {
+            return matrix.of_decimals(&cells, line);
+        }
+        quaternion.of_decimals(&quaternion_cells(text)?, line)
     }
 
     fn object(&self, text: &str, line: usize) -> Result<Case> {
+        if let Some(case) = self.plain_object(text, line) {
+            return Ok(case);
+        }
         // The reader counts lines from the beginning of the row.
         let there = |fault: Error| match fault {
             Error::File { path, message, line: own } => Error::File { path, message, line: line + own - 1 },
@@ -219,6 +228,63 @@ impl<'a> PoseRows<'a> {
         let of_angles = if self.form == Form::Angles { Of::Angles } else { Of::Rotation };
         typed(texts(true), texts(false), of_angles, &self.reading, self.form == Form::Quaternion)
     }
+}
+
+/// The characters between the tokens of an object.
+const BLANKS: [char; 4] = [' ', '\t', '\r', '\n'];
+
+/// Returns the text behind these tokens; `None` where others stand there.
+fn behind<'t>(mut text: &'t str, tokens: &[&str]) -> Option<&'t str> {
+    for token in tokens {
+        text = text.trim_start_matches(BLANKS).strip_prefix(token)?;
+    }
+    Some(text)
+}
+
+/// Returns the numbers of a list of `N`, and the text behind it. Numbers of JSON have no zeros before other digits.
+fn numbers<const N: usize>(text: &str) -> Option<([&str; N], &str)> {
+    let (inner, rest) = behind(text, &["["])?.split_once(']')?;
+    let mut own = [""; N];
+    let mut cells = inner.split(',');
+    for cell in &mut own {
+        *cell = cells.next()?.trim_matches(BLANKS);
+        let digits = cell.trim_start_matches('-').as_bytes();
+        if digits.first() == Some(&b'0') && digits.get(1).is_some_and(u8::is_ascii_digit) {
+            return None;
+        }
+    }
+    cells.next().is_none().then_some((own, rest))
+}
+
+/// Returns the first three rows of `{"matrix": [...]}`, the last one of which is 0, 0, 0, 1.
+fn matrix_cells(text: &str) -> Option<[&str; 12]> {
+    let mut text = behind(text, &["{", "\"matrix\"", ":", "["])?;
+    let mut cells = [""; 12];
+    for row in cells.chunks_exact_mut(4) {
+        let (own, rest) = numbers::<4>(text)?;
+        row.copy_from_slice(&own);
+        text = behind(rest, &[","])?;
+    }
+    let (last, rest) = numbers::<4>(text)?;
+    let is_last =
+        last.iter().zip(["0", "0", "0", "1"]).all(|(cell, own)| cell.strip_suffix(".0").unwrap_or(cell) == own);
+    (is_last && behind(rest, &["]", "}"])?.trim_matches(BLANKS).is_empty()).then_some(cells)
+}
+
+/// Returns the numbers of `{"position": [...], "quaternion": [...]}`, in either order, as in [`QUATERNION`].
+fn quaternion_cells(text: &str) -> Option<[&str; 7]> {
+    let text = behind(text, &["{"])?;
+    let position = |text| numbers::<3>(behind(text, &["\"position\"", ":"])?);
+    let quaternion = |text| numbers::<4>(behind(text, &["\"quaternion\"", ":"])?);
+    let ([x, y, z], [w, i, j, k], rest) = if let Some((first, rest)) = position(text) {
+        let (second, rest) = quaternion(behind(rest, &[","])?)?;
+        (first, second, rest)
+    } else {
+        let (first, rest) = quaternion(text)?;
+        let (second, rest) = position(behind(rest, &[","])?)?;
+        (second, first, rest)
+    };
+    behind(rest, &["}"])?.trim_matches(BLANKS).is_empty().then_some([x, y, z, w, i, j, k])
 }
 
 /// The kind of the numbers of an orientation.
@@ -329,10 +395,48 @@ pub fn typed_pose(text: &str, option: &str, design: &Design, reading: &Reading) 
         columns: Vec::new(),
         powers: None,
         are_doubles: false,
+        plain: None,
     };
     let (placement, warning) = rows.placement(&values).map_err(|fault| fault.of_option(option))?;
     let mut case = of_design(design, placement, 1);
     case.warnings.extend(warning);
     case.typed = Some(rows.typed(&values));
     Ok(case)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalogue::{Any, Options, builtin_any};
+
+    #[test]
+    fn objects_are_the_poses_of_tables() {
+        let Any::Entry(entry) = builtin_any("arm/puma560", &Options::default()).unwrap() else { panic!() };
+        let reading = Reading::default();
+        let reader = |first: &str| PoseRows::of(first, 1, "rows", &entry.design, &reading).unwrap().0;
+        let objects = reader("{");
+        let rounded = "0.36,0.48,-0.80001,0.3,-0.8,0.6,0,-0.25,0.48,0.64,0.6,1e-1";
+        let matrix =
+            "{ \"matrix\": [[0.36, 0.48, -0.80001, 0.3], [-0.8, 0.6, 0, -0.25],[0.48,0.64,0.6,1e-1],[0,0,0,1.0]] }\r\n";
+        let turned = "0.1,-0.2,0.3,0.707107,0,0.707107,0";
+        let quaternion = "{\"position\":[0.1,-0.2,0.3],\"quaternion\":[0.707107,0,0.707107,0]}";
+        let swapped = "{\"quaternion\":[0.707107,0,0.707107,0], \"position\":[0.1,-0.2,0.3]}";
+        for (names, row, text) in
+            [(&MATRIX[..], rounded, matrix), (&QUATERNION[..], turned, quaternion), (&QUATERNION[..], turned, swapped)]
+        {
+            let expected = reader(&names.join(",")).case(row, 1).unwrap();
+            assert!(objects.plain_object(text, 1).is_some(), "{text}");
+            assert_eq!(objects.case(text, 1).unwrap(), expected, "{text}");
+        }
+        // What is more than numbers, or no JSON, is left to the other reader.
+        let expression = quaternion.replace("-0.2", "\"-1/5\"");
+        assert!(objects.plain_object(&expression, 1).is_none() && objects.case(&expression, 1).is_ok());
+        for (from, to) in [("0.3]", "0.3,]"), ("-0.2", "-00.2"), ("-0.2", "0 2"), ("}", ",\"more\":1}"), ("]}", "]}]")]
+        {
+            let bad = quaternion.replace(from, to);
+            assert!(objects.plain_object(&bad, 1).is_none() && objects.case(&bad, 1).is_err(), "{bad}");
+        }
+        let other = matrix.replace("[0,0,0,1.0]", "[0,0,1,1]");
+        assert!(objects.plain_object(&other, 1).is_none() && objects.case(&other, 1).is_err());
+    }
 }

@@ -52,6 +52,13 @@ fn square(z: &Gaussian) -> Rational {
     Rational::from(z.re.square_ref()) + Rational::from(z.im.square_ref())
 }
 
+/// Returns a ball with the unknowns that a linkage lacks.
+fn padded(ball: &Ball) -> Ball {
+    let mut ball = ball.clone();
+    ball.centre.resize(UNKNOWNS, (Rational::new(), Rational::new()));
+    ball
+}
+
 /// Returns the bodies in the order in which the joints name them, the ground first.
 fn numbered(linkage: &Linkage) -> Vec<usize> {
     let mut order = vec![linkage.ground];
@@ -135,8 +142,11 @@ struct Step {
 /// Bodies that keep their directions against each other: the rotation of the second is that of the first times a number.
 type Kept = ([usize; 2], Gaussian);
 
-/// Returns the class of each body, and its rotation against that of the class.
-fn classes(order: &[usize], kept: &[Kept]) -> Result<(Vec<(usize, Gaussian)>, Vec<usize>), Fault> {
+/// The class of each body with its rotation against that of the class, and the first body of each class.
+type Classes = (Vec<(usize, Gaussian)>, Vec<usize>);
+
+/// Returns the classes of bodies that keep their directions against each other.
+fn classes(order: &[usize], kept: &[Kept]) -> Result<Classes, Fault> {
     let mut own: Vec<Option<(usize, Gaussian)>> = vec![None; order.len()];
     let mut first = Vec::new();
     for &body in order {
@@ -251,13 +261,6 @@ impl LinkageClosure {
         turns.chain(self.joints.iter().map(|(joint, length)| Some(joints(*joint)? / *length))).collect()
     }
 
-    /// Returns a ball with the unknowns that the linkage lacks.
-    pub(super) fn padded(&self, ball: &Ball) -> Ball {
-        let mut ball = ball.clone();
-        ball.centre.resize(UNKNOWNS, (Rational::new(), Rational::new()));
-        ball
-    }
-
     /// Proves that balls hold one solution each, and that these are different.
     pub(super) fn proved(&self, balls: &[Ball]) -> Result<(), Fault> {
         let size = self.size();
@@ -265,7 +268,7 @@ impl LinkageClosure {
             let found = balls[at].centre.len();
             return unreadable(format!("mode {}: found {found} unknowns, expected {size}", at + 1));
         }
-        all(self, &balls.iter().map(|ball| self.padded(ball)).collect::<Vec<_>>())
+        all(self, &balls.iter().map(padded).collect::<Vec<_>>())
     }
 
     /// Returns the factors of all columns: cosine and sine of a class, those of a slide times its distance. Where an unknown is named, they

@@ -272,4 +272,8 @@ fn the_assemblies_of_linkages_are_certified() {
         let checked = run(&["verify", &file("certificates/forged_linkage", forged.to_string())]);
         assert!(checked.code == 2 && checked.out.contains("kernel"), "{entry}: {}", checked.out);
     }
+    for entry in ["linkage/spherical_four_bar", "linkage/delta"] {
+        let said = run(&["solve", entry, "-q", "--certificate", &file("certificates/none_linkage", "")]);
+        assert!(said.err.contains("no certificate") && said.err.contains("not covered"), "{entry}: {}", said.err);
+    }
 }

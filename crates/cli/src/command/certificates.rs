@@ -75,7 +75,7 @@ impl Certificates {
         match certificate {
             Ok(value) => self.write(&format!("{value}\n")),
             Err(reason) => {
-                let _ = writeln!(std::io::stderr(), "note: no certificate: {reason}");
+                report_none(&reason);
                 Ok(())
             }
         }
@@ -95,6 +95,17 @@ impl Certificates {
         let file = self.file.as_mut();
         file.map_or(Ok(()), Write::flush).map_err(|error| failed(&self.path, &error))
     }
+}
+
+/// Reports on stderr that a certificate that is asked for, in the file `path`, is not covered.
+pub fn not_covered(path: Option<&PathBuf>, what: &str) {
+    if path.is_some() {
+        report_none(&format!("{what} are not covered"));
+    }
+}
+
+fn report_none(reason: &str) {
+    let _ = writeln!(std::io::stderr(), "note: no certificate: {reason}");
 }
 
 fn failed(path: &Path, error: &std::io::Error) -> Error {

@@ -3,7 +3,7 @@
 use super::answer_file::AnswerFile;
 use super::arguments::{Limits, OutputOptions, SolveOptions};
 use super::calculus;
-use super::certificates::Certificates;
+use super::certificates::{Certificates, not_covered};
 use super::demand::demand;
 use super::exit::{Exit, Fault, complain, unexpected};
 use super::follow::Follow;
@@ -60,8 +60,14 @@ pub fn run_to(options: &SolveOptions, open: impl FnOnce() -> Result<Output, Faul
             Any::Entry(entry) => (*entry, None),
             Any::Calculus(file) => return calculus::run(options, &file, open),
             Any::Linkage(file) => return super::linkage::run(options, &file, open()?),
-            Any::Sphere(file) => return super::sphere::run(options, &file, open()?),
-            Any::Space(file) => return super::space::run(options, &file, open()?),
+            Any::Sphere(file) => {
+                not_covered(options.certificate.as_ref(), "linkages on the sphere");
+                return super::sphere::run(options, &file, open()?);
+            }
+            Any::Space(file) => {
+                not_covered(options.certificate.as_ref(), "linkages in space");
+                return super::space::run(options, &file, open()?);
+            }
             other => {
                 let expected = "an arm, a loop or a platform with numbers";
                 return Err(unexpected(&options.mechanism, other.kind(), expected));
