@@ -110,7 +110,7 @@ class File:
 def is_same(one, other):
     """Whether two systems have the same constants: rational ones are equal, of others balls overlap. A rational number is never the
     same as one that is not known to be rational: it might be a convergent of it, for which other theorems hold."""
-    shape = lambda system: (type(system), system.size, system.kinds, system.spherical)
+    shape = lambda system: (type(system), system.size, system.equations, system.kinds, system.spherical)
     same = lambda x, y: x == y if is_exact((x, y)) else not is_exact([x]) and not is_exact([y]) and x.overlaps(y)
     return shape(one) == shape(other) and all(map(same, one.constants, other.constants))
 

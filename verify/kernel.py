@@ -9,18 +9,21 @@ from quantities import fields, require, whole
 
 PRIME = 2147483629  # 2^31 - 19, a prime that is 1 modulo 4
 ROOT = nmod(2, PRIME) ** ((PRIME - 1) // 4)  # of -1, as 2 is no square
-MOST_COLUMNS, MOST_LOOPS = 3000, 3
+MOST_COLUMNS, MOST_LOOPS, MOST_EXPONENT = 3000, 3, 60
 
 
 def kernel(system, values, item):
     """The modes, where they are as many as the kernel of the matrix has dimensions, and their vectors are independent."""
     require(isinstance(system, Linkage), "proof: kernel: only linkages in the plane have such a matrix")
     _, stated, aid = fields(item, ("kind", "value", "aid"))
-    bounds = map(whole, fields(aid, ("up", "down", "each", "slides")))
+    bounds = [*map(whole, fields(aid, ("up", "down", "each", "slides")))]
+    require(max(bounds) <= MOST_EXPONENT, f"proof: kernel: a bound above {MOST_EXPONENT}")
+    require(system.loops.nrows() <= 2 * MOST_LOOPS, f"proof: kernel: more than {MOST_LOOPS} loops")
+    require(whole(stated) == len(values) > 0, f"proof: kernel: {whole(stated)} is stated, and there are {len(values)} modes")
     modes, chosen = proved_modes(system, values), [*islice(monomials(system, *bounds), MOST_COLUMNS + 1)]
     require(len(chosen) <= MOST_COLUMNS, f"proof: kernel: more than {MOST_COLUMNS} monomials")
     most = len(chosen) - rank(shortest(system), chosen)
-    require(most == whole(stated) == len(modes) > 0, f"proof: kernel: it has dimension {most}, {stated} is stated, and {len(modes)} modes are proved")
+    require(most == len(modes), f"proof: kernel: it has dimension {most}, and {len(modes)} modes are proved")
     require(are_independent(system, modes, chosen), "proof: kernel: the vectors of the modes may be dependent")
     return modes
 
@@ -40,7 +43,6 @@ def monomials(system, up, down, each, slides, start=()):
 def shortest(system):
     """The combinations of the equations of the loops with fewest columns, modulo the prime: lists of exponents and coefficients."""
     count, columns = system.loops.nrows() // 2, system.columns()
-    require(count <= MOST_LOOPS, f"proof: kernel: more than {MOST_LOOPS} loops")
     found = {}
     for gone in combinations(range(len(columns)), count - 1):
         order = [*gone, *(k for k in range(len(columns)) if k not in gone)]
@@ -78,6 +80,7 @@ def are_independent(system, modes, chosen):
     """Whether the values of those monomials at the modes are independent that may be multiplied by every unknown."""
     among = set(chosen)
     inner = [own for own in chosen if all((*own[:k], own[k] + 1, *own[k + 1:]) in among for k in range(system.size))]
+    require(inner, "proof: kernel: no monomial may be multiplied by every unknown")
     table = []
     for centre, radius, _ in modes:
         x = [z + acb(arb(0, radius), arb(0, radius)) for z in centre]

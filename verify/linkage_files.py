@@ -46,7 +46,7 @@ def written(ground, pairs, given):
             bodies.setdefault(own, {})[str(k)] = texts(point - origins.setdefault(own, point))
         joints.append({"name": str(k), "type": kind, "of": [numbers[body] for body in of],
                        **({"along": [*map(primitive, along)]} if kind == "P" else {})})
-    held = {str(k + 1): value(pairs[k][0], own) for k, own in given.items()}
+    held = {str(k + 1): value(pairs[k][0], own) for k, own in given.items() if k >= 0}
     mechanism = {"kind": "linkage", "space": "plane", "ground": "0", "joints": joints, "bodies": bodies}
     return {"mechanism": mechanism, **({"input": [{"given": held}]} if held else {})}
 

@@ -27,6 +27,9 @@ type Monomial = [i8; UNKNOWNS];
 /// An equation modulo the prime.
 type Equation = Vec<(Monomial, u64)>;
 
+/// Largest bound of exponents, so that those of products fit in a byte. Proofs need 2 or 3.
+const MOST_EXPONENT: usize = 60;
+
 /// A choice of monomials.
 #[derive(Clone, Copy)]
 struct Choice {
@@ -226,6 +229,9 @@ pub(super) fn check_kernel(closure: &LinkageClosure, balls: &[Ball], item: &Valu
     let [_, value, aid] = fields(item, ["kind", "value", "aid"], &[])?;
     let [up, down, each, slides] = fields(aid, ["up", "down", "each", "slides"], &[])?;
     let choice = Choice { up: count(up)?, down: count(down)?, each: count(each)?, slides: count(slides)? };
+    if [choice.up, choice.down, choice.each, choice.slides].iter().any(|bound| *bound > MOST_EXPONENT) {
+        return refused(format!("proof: {KIND}: a bound above {MOST_EXPONENT}"));
+    }
     let (stated, chosen) = (count(value)?, choice.monomials(closure));
     if chosen.len() > MOST_COLUMNS {
         return refused(format!("proof: {KIND}: more than {MOST_COLUMNS} monomials"));

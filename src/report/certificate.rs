@@ -105,6 +105,9 @@ pub fn certificate_of_linkage(
     if answer.modes.len() != verdict.complex {
         return Err("multiple assemblies are not covered".to_owned());
     }
+    if answer.modes.is_empty() {
+        return Err("there is no assembly, which would show what the data are".to_owned());
+    }
     let data = data_of_linkage(file, case)?;
     let closure = LinkageClosure::of(&file.linkage, &case.given).map_err(|fault| words(&fault))?;
     let near: Option<Vec<Near>> = answer

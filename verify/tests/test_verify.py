@@ -502,3 +502,41 @@ def test_no_other_number_may_change(certificates, as_built, far, capsys, entry):
     sys.path.insert(0, str(pathlib.Path(__file__).parent))
     import mutations
     assert mutations.main([str(certificates / entry.replace("/", "-"))]) == 0, capsys.readouterr().out
+
+
+FOUR_BAR = """
+[mechanism]
+kind = "linkage"
+space = "plane"
+ground = "frame"
+joints = "shared points"
+
+[mechanism.bodies]
+frame = { A = [0, 0], D = [4, 0], E = [5, 1] }
+crank = { A = 0, B = 1 }
+coupler = { B = 0, C = 3 }
+rocker = { D = [0, 0], C = [3, 0], %s = [1, 2] }
+
+[[input]]
+joint = "A"
+tan_half = "1/2"
+"""
+
+
+@pytest.mark.parametrize("checker", CHECKERS)
+def test_forged_linkages_are_refused(tmp_path, checker):
+    """A further joint of a file is a further loop, and a given joint that does not exist is no datum."""
+    for name, point in ("four", "P"), ("over", "E"):
+        (tmp_path / name).write_text(FOUR_BAR % point)
+    run(LOOPROOT, "solve", tmp_path / "four", "-q", "--certificate", tmp_path / "certificate")
+    answer = CHECKERS[checker](tmp_path / "certificate", "--file", tmp_path / "four")
+    assert answer.returncode == 0 and "2 solutions" in answer.stdout.replace("complex 2", "2 solutions"), answer
+    assert CHECKERS[checker](tmp_path / "certificate", "--file", tmp_path / "over").returncode == 2
+    honest = json.loads((tmp_path / "certificate").read_text())
+    for key, aid in ("0", {}), ("-1", {}), ("9", {}), (None, {"up": 200, "each": 200}), (None, {"up": 0, "down": 0}):
+        forged = json.loads(json.dumps(honest))
+        if key:
+            forged["data"]["input"][0]["given"][key] = {"tan_half": "7"}
+        forged["proof"][0]["aid"].update(aid)
+        answer = CHECKERS[checker](written(tmp_path / "forged", forged))
+        assert answer.returncode in (1, 2) and "holds" not in answer.stdout and "panicked" not in answer.stderr, (key, aid, answer)
