@@ -272,7 +272,7 @@ mod tests {
         let mut off = exact;
         off[0][0] = 0.600_001;
         assert!(read(off).is_none());
-        let mirrored = rows(1).map(|row| [row[0], row[1], row[2], row[3]]);
+        let mirrored = rows(1);
         assert!(Placement::of_rounded_matrix(&mirrored).is_some());
         assert!(Placement::of_rounded_matrix(&[mirrored[1], mirrored[0], mirrored[2]]).is_none());
     }
