@@ -55,8 +55,8 @@ pub struct LoopRow {
     pub real: Option<Spread>,
     /// All solutions in numbers only, each mode with its certificate.
     pub all: Option<Spread>,
-    /// The whole answer of `looproot solve`: reading the input from its exact value, all solutions, their count, and the
-    /// verdict.
+    /// The whole answer of `looproot solve`: reading the input from its exact value, all real solutions, the proof that there are no others, and
+    /// the verdict.
     pub answer: Spread,
     /// The number of the slowest draw and of its input, from 1, by the time of the answer.
     pub slowest: (u64, usize),
@@ -143,6 +143,8 @@ impl Job {
 
     /// Times every input.
     fn pass(&mut self, workspace: &mut Workspace, assembly: &mut Assembly) -> Result<()> {
+        // As in `solve` without `--complex`.
+        workspace.only_real_list = true;
         let inputs = self.cases.iter().enumerate();
         for (k, case) in inputs.flat_map(|input| std::iter::repeat_n(input, ROUNDS)) {
             if let Some((solver, closings)) = &self.numeric {
@@ -166,6 +168,7 @@ impl Row {
     /// Computes the prepared data once before the timing.
     fn warmed(name: String, mut jobs: Vec<Job>, workspace: &mut Workspace, assembly: &mut Assembly) -> Result<Self> {
         let mut solutions = 0;
+        workspace.only_real_list = false;
         for job in &mut jobs {
             for (k, case) in job.cases.iter().enumerate() {
                 let answer = job.mechanism.solve(case, Roots::All, workspace, assembly)?;

@@ -11,7 +11,8 @@ use crate::kinematics::motion::Motion;
 /// Upper bound on the number of solutions of a loop of six rotations with such a triple.
 pub const MOST_WITH_TRIPLE: usize = 8;
 
-/// Returns whether three neighbouring axes of six rotations are parallel or meet in one point, whatever the pose.
+/// Returns whether three neighbouring axes of six rotations are parallel or meet in one point, whatever the pose. Over enclosures
+/// that is proved by numbers enclosed by 0 alone.
 #[must_use]
 pub fn has_triple<R: Ring>(open: &OpenLoop<R>) -> bool {
     let is_rotation = |variable: &Variable| *variable == Variable::Rotation;
@@ -37,12 +38,13 @@ fn crossing<R: Ring>(link: &Motion<R>) -> Option<[R; 2]> {
     if !x.mul(v).sub(&y.mul(u)).is_zero() {
         return None;
     }
+    // An enclosure of it may hold 0: then the axes may coincide, and each of their points is one at which they meet.
     let square = u.mul(u).add(&v.mul(v));
     let along = x.mul(u).add(&y.mul(v));
     (!square.is_zero()).then(|| [z.mul(&square).sub(&along.mul(w)), square])
 }
 
-/// Whether two quotients are one number.
+/// Whether two quotients are one number. Enclosures that are equal may enclose different numbers; a difference of exactly 0 says so.
 fn is_same<R: Ring>([one, below]: &[R; 2], [other, beneath]: &[R; 2]) -> bool {
-    one.mul(beneath) == other.mul(below)
+    one.mul(beneath).sub(&other.mul(below)).is_zero()
 }

@@ -21,11 +21,11 @@ pub(super) fn of_cuts(degree: Degree, place: &str) -> Bound {
     Bound { count: degree.solutions, proof: Proof::None, code: Code::CountMet, because }
 }
 
-/// The bound of arms with three neighbouring axes that are parallel or meet in a point.
-pub(super) fn of_triple() -> Bound {
+/// The bound of arms with three neighbouring axes that are parallel or meet in a point, with the proof that they do.
+pub(super) fn of_triple(proof: Proof) -> Bound {
     Bound {
         count: MOST_WITH_TRIPLE,
-        proof: Proof::Proved,
+        proof,
         code: Code::GeometryBoundMet,
         because: format!(
             "at most {MOST_WITH_TRIPLE} that an arm with three neighbouring axes parallel or through one point can have"

@@ -14,6 +14,7 @@ use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::{ClosedLoop, Layout, OpenLoop, Variable};
 use crate::kinematics::data_field::DataField;
 use crate::kinematics::motion::Motion;
+use crate::verdict::Proof;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rug::Rational;
@@ -65,13 +66,23 @@ impl Data {
         matches!(self, Self::Rounded)
     }
 
-    /// Returns whether three neighbouring axes of a chain are proved to be parallel or to meet in a point.
-    pub(super) fn has_triple(&self, chain: &Chain, layout: &Layout) -> bool {
+    /// Returns the proof that three neighbouring axes of a chain are parallel or meet in a point; `None` where they do not.
+    pub(super) fn triple(
+        &self,
+        chain: &Chain,
+        layout: &Layout,
+        enclosed: Option<&OpenLoop<Enclosure>>,
+    ) -> Option<Proof> {
         if let Self::Field(own) = self {
-            return has_triple(&own.open);
+            return has_triple(&own.open).then_some(Proof::Proved);
         }
-        let open: Option<OpenLoop<Rational>> = chain.try_open_loop(layout).ok().flatten();
-        open.is_some_and(|open| has_triple(&open))
+        // A wrist does not depend on an irrational twist elsewhere: what is enclosed by 0 alone is 0.
+        if self.is_rounded() && enclosed.is_some_and(has_triple) {
+            return Some(Proof::Proved);
+        }
+        let open: OpenLoop<Rational> = chain.try_open_loop(layout).ok().flatten()?;
+        // Incidences of rounded axes may be those of the rounded numbers only.
+        has_triple(&open).then_some(Proof::Proved.of_rounded(self.is_rounded()))
     }
 
     /// The loop at a general pose or input modulo a prime.

@@ -95,16 +95,21 @@ impl SixUnknowns {
         self.data.get_or_init(|| Data::of(chain, &self.layout, None))
     }
 
+    /// The loop, enclosed.
+    fn open_enclosed(&self, chain: &Chain) -> Option<&OpenLoop<Enclosure>> {
+        self.enclosed.get_or_init(|| chain.try_open_loop(&self.layout).ok().flatten()).as_ref()
+    }
+
     /// The loop of a case, enclosed.
     pub(super) fn enclosed(&self, chain: &Chain, case: &Case) -> Result<Option<ClosedLoop<Enclosure>>> {
-        let open = self.enclosed.get_or_init(|| chain.try_open_loop(&self.layout).ok().flatten());
-        open.as_ref().map(|open| Ok(open.close(&closing_transformation(case)?))).transpose()
+        let open = self.open_enclosed(chain);
+        open.map(|open| Ok(open.close(&closing_transformation(case)?))).transpose()
     }
 
     /// The loop rounded once, closed by the identity; `None` where its numbers are not known to so many digits.
     fn exact(&self, chain: &Chain) -> Option<ClosedLoop<DoubleDouble>> {
-        let open = self.enclosed.get_or_init(|| chain.try_open_loop(&self.layout).ok().flatten());
-        Some(open.as_ref()?.rounded::<DoubleDouble>(DoubleDouble::BITS)?.close(&Motion::identity()))
+        let open = self.open_enclosed(chain)?;
+        Some(open.rounded::<DoubleDouble>(DoubleDouble::BITS)?.close(&Motion::identity()))
     }
 
     /// Returns a bound on the number of solutions at every pose or input: the least one that is known, unless it is at most
@@ -122,10 +127,11 @@ impl SixUnknowns {
         let other = if locked.is_none() { general(1) } else { None };
         let counted = general(0).and_then(|closed| self.degree(&closed, other.as_ref(), enough));
         let bound = counted.map_or_else(|| Bound::general(self.general()), |d| of_cuts(d, "at general poses"));
-        let has_triple =
-            || self.layout.spherical_unknown().is_none() && self.data(chain).has_triple(chain, &self.layout);
-        let is_met = || bound.count == MOST_WITH_TRIPLE && has_triple();
-        if bound.code == Code::CountMet && is_met() { of_triple() } else { bound }
+        let is_counted = bound.code == Code::CountMet && bound.count == MOST_WITH_TRIPLE;
+        if !is_counted || self.layout.spherical_unknown().is_some() {
+            return bound;
+        }
+        self.data(chain).triple(chain, &self.layout, self.open_enclosed(chain)).map_or(bound, of_triple)
     }
 
     /// The number of solutions, exactly.
@@ -470,11 +476,7 @@ impl Question<'_> {
         let is_beyond =
             |(gap, links): &(f64, f64)| self.tolerance.is_none_or(|own| gap - links > own.length + own.angle * links);
         let too_far = solver.too_far(self.gap).filter(is_beyond);
-        let verdict = verdict(assembly, roots, rank, general, everywhere, here, too_far);
-        // Incidences of rounded axes may be those of the rounded numbers only.
-        let is_of_axes = verdict.code == Code::GeometryBoundMet;
-        let is_rounded = is_of_axes && self.prepared.data(&self.of.chain).is_rounded();
-        Verdict { proof: verdict.proof.of_rounded(is_rounded), ..verdict }
+        verdict(assembly, roots, rank, general, everywhere, here, too_far)
     }
 
     /// Returns the number of solutions, where all are requested and some are missing.

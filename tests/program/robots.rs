@@ -489,6 +489,20 @@ fn seven_lengths_give_the_same_pose() {
 }
 
 #[test]
+fn an_irrational_twist_leaves_the_bound_of_a_wrist_proved() {
+    let code = |arguments: &[&str]| {
+        let output = run(&[&["solve"], arguments, &["--json"]].concat());
+        let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let verdict = &document["results"][0]["verdict"];
+        ["proof", "code"].map(|key| verdict[key].as_str().unwrap().to_owned())
+    };
+    let proved = ["proved", "geometry-bound-met"].map(str::to_owned);
+    // The wrist of an arm whose third joint is held at 0.5 radian, as a twist and by `--lock`.
+    assert_eq!(code(&["iiwa14", "--joints", "0.3, 0.7, -1.1, 0.4, 0.9, 0.2"]), proved);
+    assert_eq!(code(&["iiwa14_r820", "--lock", "3=0.5 rad", "--at", "300, 200, 600; 0.3, 0.2, 0.1"]), proved);
+}
+
+#[test]
 fn a_stretched_arm_whose_twist_is_rounded_reaches_its_own_pose() {
     // Rounding of pi - 0.5 leaves of the self-motion not even complex solutions.
     for q in ["0,0,0,0,0,0", "0.3,0,0,0,0,0.1"] {

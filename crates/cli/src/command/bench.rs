@@ -333,7 +333,7 @@ fn loops_table(timings: &LoopTimings) -> String {
     format!(
         "microseconds, one core; faer, eigenvalues of one 16x16 matrix: median {median:.1}, least {least:.1}\n\n\
          f64, prepared once, many inputs. real, all: the numbers and the proof of each mode.\n\
-         answer: as `solve` gives it, from the exact input to the count of all solutions and the verdict\n{}{exact}",
+         answer: as `solve` gives it, from the exact input to all real solutions and the proof that there are no others\n{}{exact}",
         table.text()
     )
 }
