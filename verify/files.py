@@ -4,12 +4,13 @@ import json
 import math
 import tomllib
 
+from four_bars import four_bars
 from linkage_files import Planar
-from linkages import system_of
 from mechanism import KEYS, matrix
 from motions import difference, dot
 from quantities import Refused, Unreadable, is_exact, items, number, require
 from rounded import rotation_near, rotation_of
+from sweep import system_of
 from units import HALF_TANGENT, UNITS, by_half_tangent, in_units, right_angle
 
 LARGEST = 64 << 20  # bytes of a mechanism file
@@ -92,8 +93,8 @@ class File:
     def cases(self, verb):
         """The data of every case, each as a function, as some have none."""
         document, mechanism = self.document, self.document["mechanism"]
-        if mechanism["kind"] == "linkage":
-            return Planar(self).cases()
+        if verb == "sweep" or mechanism["kind"] == "linkage":
+            return four_bars(self) if verb == "sweep" else Planar(self).cases()
         if mechanism["kind"] == "platform":
             base, plate = ([[*map(self.length, point)] for point in mechanism[key]] for key in ("base", "plate"))
             of_legs = lambda legs: {"mechanism": {

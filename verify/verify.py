@@ -16,11 +16,12 @@ from curve import curve
 from distance import distance
 from files import is_about
 from geometry import geometry
-from kernel import kernel, system_of
+from kernel import kernel
 from polynomial import derived
 from quantities import Refused, expect, fields, items, require, whole
 from real_zeros import real_zeros
 from short_loops import lengthened, own_modes
+from sweep import swept, system_of
 
 LARGEST = 128 << 20  # characters of a file: what is cut there is no JSON
 GENERAL = {0: 16, 1: 16, 2: 8, 3: 2}  # solutions of six rotations and translations, by the number of translations
@@ -32,7 +33,7 @@ def check(certificate, file):
         certificate, ("format", "version", "data", "claim", "modes", "proof"), ("info",))
     expect(form == "looproot-certificate" and whole(version) == 1, (form, version), "looproot-certificate, version 1")
     verb = claim["verb"]
-    require(verb in VERBS and items(proof), "claim: only answers of solve, derive, mobility and conditions with a proof are covered")
+    require(verb in VERBS and items(proof), "claim: only answers of solve, derive, mobility, sweep and conditions with a proof are covered")
     system = system_of(data) if verb != "conditions" else None  # those are about no mechanism
     require(not file or is_about(system, file, verb), "file: the data of the certificate are those of no case of the file")
     found = {"verb": verb, "proof": "proved", **VERBS[verb](system, data, claim, modes, *proof)}
@@ -63,8 +64,7 @@ def all_modes(system, values, bound, item):
 
 def general(system):
     """Theorem 2."""
-    known = [GENERAL, THREE_JOINTS, {}][min(len(system.spherical), 2)]
-    return 40 if isinstance(system, Platform) else known.get(system.kinds.count(SLIDE))
+    return 40 if isinstance(system, Platform) else [GENERAL, THREE_JOINTS, {}][min(len(system.spherical), 2)].get(system.kinds.count(SLIDE))
 
 
 def moving(system, data, claim, modes, item, *others):
@@ -92,7 +92,7 @@ def regular(system, data, item, modes):
 BOUNDS = {"general-bound": general, "geometry-bound": geometry, "eliminant": eliminant.most_solutions}
 LISTS = {"own-eliminant": eliminant.own_eliminant, "distance": distance, "real-zeros": real_zeros, "kernel": kernel}
 MOTIONS = {"general-bound": immobile, "eliminant": eliminant.immobile, "regular": regular, "curve": curve}
-VERBS = {"solve": solved, "derive": functools.partial(derived, solved), "mobility": moving, "conditions": four_joints}
+VERBS = {"solve": solved, "derive": functools.partial(derived, solved), "mobility": moving, "sweep": swept, "conditions": four_joints}
 
 
 def distinct(pairs):

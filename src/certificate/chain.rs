@@ -36,10 +36,10 @@ pub struct ChainClosure {
 }
 
 /// A loop of any number of unknowns.
-struct Around<R> {
+pub(super) struct Around<R> {
     variables: Vec<Variable>,
     /// The constant motion behind each unknown.
-    links: Vec<Motion<R>>,
+    pub links: Vec<Motion<R>>,
     /// The part of the last link that stands in front of the first unknown.
     before: Motion<R>,
     given: Option<usize>,
@@ -47,7 +47,7 @@ struct Around<R> {
 
 impl<R: Ring> Around<R> {
     /// Reads the loop of a case over a ring, of none without an input.
-    fn of(chain: &Chain, case: Option<&Case>) -> Result<Self, Fault> {
+    pub fn of(chain: &Chain, case: Option<&Case>) -> Result<Self, Fault> {
         let own = || Fault::Unreadable("found numbers that are not known well enough".to_owned());
         let (mut variables, mut motions) = chain.unknowns_and_constants::<R>().ok_or_else(own)?;
         let named = JointVariable::of(&chain.joint_kinds());

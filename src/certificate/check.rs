@@ -7,6 +7,7 @@ use super::data::{data_of, data_of_loop, entry_of};
 use super::distance;
 use super::families::check_families;
 use super::fault::{Fault, refused, shortened, unreadable};
+use super::four_bars;
 use super::isolation::{Closed, proved_modes};
 use super::kernel;
 use super::linkage::{LinkageClosure, data_of_linkage};
@@ -17,6 +18,7 @@ use super::polynomial;
 use super::real_zeros;
 use super::record::{Claim, Record, count, fields};
 use super::strict::Strict;
+use super::sweep::check_sweep;
 use crate::catalogue::entry::{Case, Design, Entry};
 use crate::catalogue::{Any, Chains, Format, Options, any_from_text};
 use serde_json::{Deserializer, Value};
@@ -52,6 +54,15 @@ pub enum Holds {
     Mobility(usize),
     /// All loops of four rotations that move are of so many families, if no twist is a multiple of pi and joints 1 and 4 move.
     Families(usize),
+    /// All branches of a four-bar while its input makes a full turn.
+    Branches {
+        /// Their number.
+        branches: usize,
+        /// The number of circuits that they belong to.
+        circuits: usize,
+        /// The number of limit positions.
+        limits: usize,
+    },
 }
 
 impl fmt::Display for Holds {
@@ -72,6 +83,10 @@ impl fmt::Display for Holds {
                     "{count} families of loops of four oblique links of which joints 1 and 4 move: complete, proved"
                 )
             }
+            Self::Branches { branches, circuits, limits } => write!(
+                f,
+                "a full turn of the input: {branches} branches, {circuits} circuits, {limits} limit positions: complete, proved"
+            ),
             Self::Mobility(0) => write!(f, "immobile, of dimension 0: proved"),
             Self::Mobility(dimension) => write!(f, "mobile, of dimension {dimension}: proved"),
         }
@@ -84,7 +99,7 @@ impl fmt::Display for Holds {
 /// [`Fault`] names the first item that does not hold, or what cannot be read.
 pub fn check(certificate: &Value, file: Option<&Any>) -> Result<Holds, Fault> {
     let record = Record::read(certificate)?;
-    let verbs = ["solve", "mobility", "derive", "conditions"];
+    let verbs = ["solve", "mobility", "derive", "sweep", "conditions"];
     if !verbs.contains(&record.claim.verb.as_str()) || record.claim.proof != "proved" {
         return refused(format!("claim: only proved answers of {} are covered", verbs.join(", ")));
     }
@@ -94,6 +109,15 @@ pub fn check(certificate: &Value, file: Option<&Any>) -> Result<Holds, Fault> {
         }
         let found = check_families(&record.data, &record.claim.status, claim, record.modes.len(), &record.proof);
         return found.map(Holds::Families);
+    }
+    if let Some(claim) = &record.claim.sweep {
+        let found = check_sweep(&record.data, &record.claim.status, claim, record.modes.len(), &record.proof)?;
+        let data = Value::Object(record.data);
+        if file.is_some_and(|file| !four_bars::is_about(file, &data)) {
+            return refused(OTHER_FILE);
+        }
+        let [branches, circuits, limits] = found;
+        return Ok(Holds::Branches { branches, circuits, limits });
     }
     let is_linkage = record.data.get("mechanism").and_then(|own| own.get("kind")) == Some(&Value::from("linkage"));
     if is_linkage && record.claim.verb == "solve" {

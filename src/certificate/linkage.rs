@@ -34,7 +34,7 @@ pub struct LinkageClosure {
     joints: Vec<(usize, f64)>,
 }
 
-fn mirrored(z: &Gaussian) -> Gaussian {
+pub(super) fn mirrored(z: &Gaussian) -> Gaussian {
     Gaussian { re: z.re.clone(), im: Rational::from(-&z.im) }
 }
 
@@ -48,7 +48,7 @@ fn whole(direction: &Gaussian) -> Gaussian {
     Gaussian { re, im }
 }
 
-fn square(z: &Gaussian) -> Rational {
+pub(super) fn square(z: &Gaussian) -> Rational {
     Rational::from(z.re.square_ref()) + Rational::from(z.im.square_ref())
 }
 

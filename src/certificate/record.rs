@@ -3,7 +3,7 @@
 use super::families;
 use super::fault::{Fault, shortened, unreadable};
 use super::mode::{Ball, Unproved};
-use super::polynomial;
+use super::{polynomial, sweep};
 use rug::{Integer, Rational, ops::Pow};
 use serde_json::{Map, Value};
 
@@ -46,6 +46,8 @@ pub(super) struct Claim {
     pub polynomial: Option<polynomial::Claim>,
     /// The families of `conditions`.
     pub families: Option<families::Claim>,
+    /// The branches of `sweep`.
+    pub sweep: Option<sweep::Claim>,
 }
 
 impl Record {
@@ -82,6 +84,13 @@ fn claim(value: &Value) -> Result<Claim, Fault> {
         let (verb, status, proof) = words(verb, status, word)?;
         let families = Some(families::Claim::read(families, links, joints)?);
         return Ok(Claim { verb, status, proof, families, ..Claim::default() });
+    }
+    if value.get("verb").and_then(Value::as_str) == Some("sweep") {
+        let needed = ["verb", "status", "proof", "branches", "circuits", "limits"];
+        let [verb, status, word, branches, circuits, limits] = fields(value, needed, &[])?;
+        let (verb, status, proof) = words(verb, status, word)?;
+        let sweep = Some(sweep::Claim::read(branches, circuits, limits)?);
+        return Ok(Claim { verb, status, proof, sweep, ..Claim::default() });
     }
     if value.get("status").and_then(Value::as_str) == Some(SELF_MOTION) {
         let [verb, status, word, dimension] = fields(value, ["verb", "status", "proof", "self_motion"], &[])?;

@@ -210,7 +210,7 @@ pub fn verify(certificates: &str, file: Option<&str>) -> Result<Value> {
             Ok(Holds::Real(real)) => answer["real"] = json!(real),
             Ok(Holds::OutOfReach) => answer["real"] = json!(0),
             Ok(Holds::SelfMotion) => answer["self_motion"] = json!(1),
-            Ok(Holds::Families(_)) => {}
+            Ok(Holds::Families(_) | Holds::Branches { .. }) => {}
             Ok(Holds::Mobility(dimension)) => answer["mobility"] = json!(dimension),
             Err(fault) => answer["fault"] = json!(fault.to_string()),
         }

@@ -7,9 +7,10 @@ use crate::catalogue::entry::{Case, Design, Entry};
 use crate::catalogue::{LinkageCase, LinkageFile};
 use crate::certificate::{
     Ball, ChainClosure, Closed, FAMILIES, FORMAT, Fault, LinkageClosure, Listed, Near, VERSION, balls,
-    balls_of_linkage, check, claim_of_families, closed, data_of, data_of_linkage, data_of_loop, proof_by_distance,
-    proof_of, proof_of_kernel, proof_of_motion, proof_of_own, proof_of_points, proof_of_polynomial, proof_of_real_list,
-    proof_of_rest, proof_of_self_motion, proved_modes,
+    balls_of_linkage, check, claim_of_families, closed, data_of, data_of_linkage, data_of_loop,
+    data_of_turning_linkage, data_of_turning_loop, proof_by_distance, proof_of, proof_of_kernel, proof_of_motion,
+    proof_of_own, proof_of_points, proof_of_polynomial, proof_of_real_list, proof_of_rest, proof_of_self_motion,
+    proof_of_sweep, proved_modes,
 };
 use crate::conditions::four_bar::{self, FourBar};
 use crate::derivation::Derivation;
@@ -19,6 +20,8 @@ use crate::kinematics::motion::Motion;
 use crate::linkage::answer::LinkageAnswer;
 use crate::mechanism::{FullMode, Mechanism, Solution};
 use crate::mobility::Mobility;
+use crate::report::sweep::Swept;
+use crate::sweep::{LinkageSweep, Sweep};
 use crate::verdict::Status;
 use num_complex::Complex;
 use rug::{Integer, Rational, ops::Pow};
@@ -304,6 +307,53 @@ pub fn certificate_of_motion(entry: &Entry, answer: &Mobility) -> Result<Value, 
         "mobility": dimension,
     });
     accepted(&info, &data, &claim, &balls, &[proof])
+}
+
+/// Returns the certificate of all branches of a loop over a full turn of its input, which the checker of [`crate::certificate`] accepts.
+///
+/// # Errors
+/// A clause that says why there is none.
+pub fn certificate_of_sweep(entry: &Entry, swept: Swept, found: &Sweep) -> Result<Value, String> {
+    let circuits = found.branches.iter().map(|branch| branch.circuit).max().unwrap_or(0);
+    let counts = [found.branches.len(), circuits, found.limits.len()];
+    let is_turn = found.is_full_turn && swept.variable == Variable::Rotation;
+    let data = || data_of_turning_loop(entry, swept.joint);
+    let info = json!({ "program": PROGRAM, "name": entry.name, "title": entry.title });
+    of_turn(&info, (found.verdict.proof.is_proved(), is_turn), &data, counts)
+}
+
+/// Returns the certificate of all branches of a linkage over a full turn of its input, which the checker of [`crate::certificate`] accepts.
+///
+/// # Errors
+/// A clause that says why there is none.
+pub fn certificate_of_linkage_sweep(file: &LinkageFile, found: &LinkageSweep) -> Result<Value, String> {
+    let circuits = found.branches.iter().map(|branch| branch.circuit).max().unwrap_or(0);
+    let counts = [found.branches.len(), circuits, found.limits.len()];
+    let data = || data_of_turning_linkage(file, found.joint);
+    let info = json!({ "program": PROGRAM, "name": file.heading.name, "title": file.heading.title });
+    of_turn(&info, (found.verdict.proof.is_proved(), found.is_full_turn), &data, counts)
+}
+
+/// Returns the certificate of a sweep with so many branches, circuits and limit positions.
+fn of_turn(
+    info: &Value,
+    (is_proved, is_turn): (bool, bool),
+    data: &dyn Fn() -> Result<Value, String>,
+    counts: [usize; 3],
+) -> Result<Value, String> {
+    if !is_proved {
+        return Err("the answer is not proved".to_owned());
+    }
+    if !is_turn {
+        return Err("only full turns of the input are covered".to_owned());
+    }
+    let data = data()?;
+    let (claim, proof) = proof_of_sweep(&data)?;
+    let limits = claim["limits"].as_array().map_or(0, Vec::len);
+    if [&claim["branches"], &claim["circuits"], &json!(limits)] != counts.map(Value::from).each_ref() {
+        return Err("the sweep has other branches than its discriminant".to_owned());
+    }
+    accepted(info, &data, &claim, &[], &[proof])
 }
 
 /// Returns the certificate of all families of loops of four rotations that move, which the checker of [`crate::certificate`] accepts.

@@ -347,6 +347,10 @@ pub struct SweepOptions {
     /// JSON of loops (the body behind this joint) and of linkages on the sphere: the axis of the velocity screw, in the same axes
     #[arg(long, value_name = "BODY", requires = "json")]
     pub axodes: Option<String>,
+    /// Write a certificate of the proved branches of a four-bar over a full turn to this file: `looproot verify` and verify/verify.py
+    /// check it
+    #[arg(long, value_name = "FILE")]
+    pub certificate: Option<PathBuf>,
     /// Loops and linkages: the velocity ratio of this joint to the input, and its least and greatest value on every branch
     #[arg(long, value_name = "JOINT", conflicts_with_all = ["svg", "quiet"])]
     pub ratio: Option<String>,

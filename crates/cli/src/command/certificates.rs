@@ -71,6 +71,17 @@ impl Certificates {
         self.add_one(certificate_of_motion(entry, answer))
     }
 
+    /// Writes the certificate that is found to a file of its own, or reports on stderr why there is none.
+    pub fn write_one(
+        path: Option<&PathBuf>,
+        found: impl FnOnce() -> Result<serde_json::Value, String>,
+    ) -> Result<(), Error> {
+        let Some(path) = path else { return Ok(()) };
+        let mut own = Self::new(path);
+        own.add_one(found())?;
+        own.close()
+    }
+
     fn add_one(&mut self, certificate: Result<serde_json::Value, String>) -> Result<(), Error> {
         match certificate {
             Ok(value) => self.write(&format!("{value}\n")),

@@ -23,6 +23,7 @@ Examples:
   looproot sweep bennett_a --from 0 --to \"360 deg\" --svg -o bennett.svg
   looproot sweep linkage/coupler_instant --from 0 --to \"360 deg\" --ratio D   a velocity ratio and its extremes
   looproot sweep loop.toml --joint 2 --from 0 --to 1 --csv      one row for every branch and step
+  looproot sweep linkage/watt_line --from 0 --to \"360 deg\" --certificate watt.cert   which looproot verify checks
   looproot sweep hexapod --joint leg1 --from \"5 cm\" --to \"8 cm\"   a platform: one leg changes its length";
 
 /// Examples of `mobility`.

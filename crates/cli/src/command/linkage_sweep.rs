@@ -1,6 +1,7 @@
 //! `looproot sweep` for linkages.
 
 use super::arguments::SweepOptions;
+use super::certificates::Certificates;
 use super::exit::{Exit, Fault};
 use super::instant::named;
 use super::output::{Output, pool};
@@ -10,6 +11,7 @@ use looproot::internal::error::Error;
 use looproot::internal::kinematics::closed_loop::Variable;
 use looproot::internal::kinematics::linkage::Given;
 use looproot::internal::report::axodes;
+use looproot::internal::report::certificate::certificate_of_linkage_sweep;
 use looproot::internal::report::linkage_sweep::{self as report, Asked, Traced};
 use looproot::internal::report::ratio::Ratio;
 use looproot::internal::sweep::{count_limits, sweep_linkage};
@@ -42,6 +44,7 @@ pub fn run(
     let pool = pool(options.threads)?;
     let found = pool.install(|| sweep_linkage(&file.linkage, file.given(case), joint, range, || ()));
     let mut found = found.map_err(|error| error.at(&options.mechanism, case.line))?;
+    Certificates::write_one(options.certificate.as_ref(), || certificate_of_linkage_sweep(file, &found))?;
     // Pictures, whose documents have a scene, have no use for the number.
     if options.json && !options.scene {
         count_limits(&mut found, &file.linkage, file.given(case));

@@ -1,6 +1,7 @@
 //! `looproot sweep`
 
 use super::arguments::SweepOptions;
+use super::certificates::{Certificates, not_covered};
 use super::exit::{Exit, Fault, unexpected};
 use super::output::{Output, pool};
 use super::seed::plant;
@@ -15,6 +16,7 @@ use looproot::internal::kinematics::chain::{Chain, JointKind};
 use looproot::internal::kinematics::closed_loop::Variable;
 use looproot::internal::kinematics::freedom::Freedom;
 use looproot::internal::report::axodes;
+use looproot::internal::report::certificate::certificate_of_sweep;
 use looproot::internal::report::document::complete;
 use looproot::internal::report::picture::svg;
 use looproot::internal::report::ratio::Ratio;
@@ -41,7 +43,10 @@ pub fn run_to(options: &SweepOptions, open: impl FnOnce() -> Result<Output, Faul
     let entry = match load_solvable(&options.mechanism, &Options { chains, ..options.read.options() })? {
         Any::Entry(entry) => *entry,
         Any::Linkage(file) => return super::linkage_sweep::run(options, &file, open),
-        Any::Sphere(file) => return super::sphere::sweep(options, &file, open),
+        Any::Sphere(file) => {
+            not_covered(options.certificate.as_ref(), "linkages on the sphere");
+            return super::sphere::sweep(options, &file, open);
+        }
         Any::Space(_) => {
             return Err(Error::Unsupported("linkages in space are not swept yet".to_owned()).into());
         }
@@ -58,7 +63,10 @@ pub fn run_to(options: &SweepOptions, open: impl FnOnce() -> Result<Output, Faul
     }
     let chain = match &entry.design {
         Design::Loop(chain) => chain,
-        Design::Platform(_) => return super::platform_sweep::run(options, &entry, open),
+        Design::Platform(_) => {
+            not_covered(options.certificate.as_ref(), "platforms");
+            return super::platform_sweep::run(options, &entry, open);
+        }
         Design::Arm(_) => {
             let expected = "a loop, a linkage or a platform, which has an input to sweep";
             return Err(unexpected(&options.mechanism, entry.kind().into(), expected));
@@ -88,6 +96,7 @@ pub fn run_to(options: &SweepOptions, open: impl FnOnce() -> Result<Output, Faul
     let found = pool.install(|| sweep(&entry, swept.joint, swept.variable, range, running, || progress.inc(1)));
     let found = found.map_err(|error| in_place(error, &options.mechanism, &entry))?;
     progress.finish_and_clear();
+    Certificates::write_one(options.certificate.as_ref(), || certificate_of_sweep(&entry, swept, &found))?;
     let ratio = follower.map(|follower| {
         let follower = (follower.0, follower.1.as_str());
         Ratio::of_loop(&entry, (swept.joint, swept.variable), &found, follower)

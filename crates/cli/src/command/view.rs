@@ -126,6 +126,7 @@ fn sweep_options(options: &ViewOptions) -> SweepOptions {
         svg: false,
         centrodes: None,
         axodes: None,
+        certificate: None,
         ratio: None,
         trace: options.trace.clone(),
         json: true,

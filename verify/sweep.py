@@ -1,0 +1,94 @@
+"""Theorem 14 of docs/certificate.md: the branches and limit positions of a four-bar while its input makes a full turn."""
+from math import gcd, lcm
+
+from flint import arb, fmpq, fmpq_poly
+
+import linkages
+from closures import MOST_RADIUS
+from motions import dot
+from quantities import Refused, decimal, fields, is_exact, items, number, require
+
+TRIGONOMETRIC = [fmpq_poly([1, 0, 1]), fmpq_poly([1, 0, -1]), fmpq_poly([0, 2])]  # 1, cos, sin times 1 + x^2
+
+
+def written(crank, square, axis, place, radius=None):
+    """The data in the one form of certificates. The axis is given by whole numbers without a common factor, the first one positive that is
+    not 0; B circles about `place` on it, or it slides along the axis, whose point nearest to the origin is given."""
+    require(any(x != 0 for x in axis), "data: an axis is 0")
+    whole = [int(x * lcm(*(int(y.q) for y in axis))) for x in axis]
+    common = gcd(*whole) * (1 if next(x for x in whole if x) > 0 else -1)
+    axis = [fmpq(x // common) for x in whole]
+    if radius is None:
+        place = [x - u * dot(axis, place) / dot(axis, axis) for x, u in zip(place, axis)]
+    texts = lambda vector: [*map(str, vector)]
+    output = {"point": texts(place)} if radius is None else {"centre": texts(place), "radius_squared": str(radius)}
+    return {"crank": texts(crank), "coupler_squared": str(square), "output": {"axis": texts(axis), **output}}
+
+
+class FourBar:
+    """A turns about the z axis, at (*crank, 0) where the input is 0; B circles or slides, and its distance from A is constant."""
+    size, equations, spherical = 0, 1, []
+
+    def __init__(self, data):
+        crank, square, output = fields(data, ("crank", "coupler_squared", "output"))
+        is_slide = isinstance(output, dict) and "point" in output
+        axis, place, *radius = fields(output, ("axis", "point") if is_slide else ("axis", "centre", "radius_squared"))
+        crank, axis, place = ([number(x) for x in items(vector, n)] for vector, n in ((crank, 2), (axis, 3), (place, 3)))
+        squares = [*map(number, [square, *radius])]
+        self.constants, self.kinds = [*crank, *axis, *place, *squares], [is_slide]
+        require(is_exact(self.constants) and all(x >= 0 for x in squares), "data: a number is not rational, or a square is negative")
+        require(written(crank, squares[0], axis, place, *squares[1:]) == data, "data: the four-bar is not written in the one form of certificates")
+        self.discriminant = discriminant(crank, axis, place, *squares)
+
+    def __getattr__(self, name):
+        raise Refused("proof: four-bars whose input runs are covered by theorem 14 alone")
+
+
+def system_of(data):
+    """The closure equations of the mechanism."""
+    return FourBar(data) if "crank" in data else linkages.system_of(data)
+
+
+def discriminant(crank, axis, place, coupler, radius=None):
+    """The polynomial D in the half-angle tangent of the input."""
+    a, n, c = [*crank, fmpq(0)], axis, place
+    trigonometric = lambda *parts: sum((part * own for part, own in zip(parts, TRIGONOMETRIC)), fmpq_poly())
+    # For V = A - c the square |V|^2 and the product V.n.
+    side = trigonometric(dot(a, a) + dot(c, c), -2 * dot(a, c), 2 * (a[1] * c[0] - a[0] * c[1]))
+    along = trigonometric(-dot(n, c), dot(a, n), a[0] * n[1] - a[1] * n[0])
+    one = TRIGONOMETRIC[0]
+    across = side * one - along * along / dot(n, n)
+    return coupler * one * one - across if radius is None else 4 * radius * across - (side + (radius - coupler) * one) ** 2
+
+
+def swept(system, data, claim, modes, item, *others):
+    """The branches over a full turn of the input."""
+    kind, polynomial = fields(item, ("kind", "polynomial"))
+    items(modes, 0)
+    require(isinstance(system, FourBar) and kind == "discriminant" and not others, "proof: the branches of a four-bar are shown by one discriminant")
+    own = system.discriminant
+    require(own.degree() == 4, "proof: discriminant: it has a root at half a turn of the input, or is 0")
+    # Without limit positions nothing else would tell these data from others.
+    require(items(polynomial) == [*map(str, own.coeffs())], "proof: discriminant: that of the data is another one")
+    roots = [order for root, order in own.complex_roots() if root.imag == 0]
+    require(all(order == 1 for order in roots), "proof: discriminant: a real root is a multiple one")
+    limits = items(claim["limits"])
+    require(len(limits) == len(roots), f"claim: {len(limits)} limit positions, where the discriminant has {len(roots)} real roots")
+    end = -arb.pi()
+    for at, limit in enumerate(limits, 1):
+        centre, radius = map(decimal, fields(limit, ("centre", "radius")))
+        require(0 < radius <= MOST_RADIUS, f"limit {at}: the radius is not above 0 and at most 1/1000")
+        low, high = arb(centre - radius), arb(centre + radius)
+        require(low > end and high < arb.pi(), f"limit {at}: the limits are not apart, in ascending order, between -pi and pi")
+        require(value(own, low) * value(own, high) < 0, f"limit {at}: no root of the discriminant is proved within the radius")
+        end = high
+    # Without limit positions two branches close in themselves, or there are none.
+    circuits = len(roots) // 2 or (2 if own[4] > 0 else 0)
+    branches = len(roots) or circuits
+    return {"status": "complete" if branches else "unreachable", "branches": branches, "circuits": circuits, "limits": limits}
+
+
+def value(polynomial, angle):
+    """The discriminant at an angle, times a positive number: a form in cosine and sine of its half."""
+    cos, sin = (angle / 2).cos(), (angle / 2).sin()
+    return sum((polynomial[k] * cos ** (4 - k) * sin**k for k in range(5)), arb(0))
