@@ -1,12 +1,16 @@
 """The four-bars of mechanism files as the data of certificates write them: of a loop, or of a linkage in the plane, whose input runs."""
 import functools
 
+from flint import fmpq, fmpq_mat
+
 from closures import TURN
 from linkage_files import Planar, over_length
 from mechanism import system_of
-from motions import IDENTITY, column, difference, dot, inverse, times
+from motions import IDENTITY, column, dot, inverse, times
 from quantities import is_exact, require
 from sweep import written
+
+KINDS = ("RSSR", "RSSP", "RRRR", "RRRP", "RRPR")  # the joints from the input on, A and B in the middle; of the last one A is in a plane of the output
 
 
 def four_bars(file):
@@ -30,11 +34,11 @@ def of_loop(file, given):
         k += wide
     require(at is not None and len(links) == 4, "file: no loop of four joints")
     joints, links = joints[at:] + joints[:at], links[at:] + links[:at]
-    if joints in ("RSSR", "RSSP", "RRRR", "RRRP"):
+    if joints in KINDS:
         return of_links(joints, links, 1)
     # The other way round the input turns backwards.
     joints = joints[0] + joints[:0:-1]
-    require(joints in ("RSSR", "RSSP", "RRRP"), "file: a loop of other joints")
+    require(joints in KINDS, "file: a loop of other joints")
     return of_links(joints, [inverse(link) for link in links[::-1]], -1)
 
 
@@ -45,21 +49,27 @@ def of_links(joints, links, sense):
         require(joints == "RRRR", "file: a slide that is not across three parallel axes")
         links = about_one_point(links)
     (x, y, height), side = column(links[0], 3), column(links[1], 3)
-    b, ground = column(inverse(links[2]), 3), inverse(links[3])
-    foot = b if joints[3] == "P" else [0 * b[0], 0 * b[0], b[2]]
-    u, v, w = [dot(row, foot) + row[3] for row in ground[:3]]
-    if is_flat:
-        side, w = [*side[:2], 0 * w], height
-    n = column(ground, 2)
-    radius = () if joints[3] == "P" else (b[0] * b[0] + b[1] * b[1],)
-    return written([x, sense * y], dot(side, side), [n[0], sense * n[1], n[2]], [u, sense * v, w - height], *radius)
+    b, u, ground = column(inverse(links[2]), 3), column(inverse(links[2]), 2), inverse(links[3])
+    side = [*side[:2], 0 * height] if is_flat else side
+    foot = b if joints[3] == "P" else [0 * height, 0 * height, b[2]]
+    if joints[2] == "P":
+        p = column(inverse(times(links[1], links[2])), 3)
+        squares = {"offset_squared": (p[0] * u[1] - p[1] * u[0]) ** 2}
+    else:
+        squares = {"coupler_squared": dot(side, side), **({"radius_squared": b[0] * b[0] + b[1] * b[1]} if joints[3] == "R" else {})}
+    place = [dot(row, foot) + row[3] for row in ground[:3]]
+    place[2] = 0 * height if is_flat else place[2] - height
+    mirrored = lambda v: [v[0], sense * v[1], *v[2:]]
+    return written(mirrored([x, y]), mirrored(column(ground, 2)), mirrored(place), **squares)
 
 
 def has_parallel_axes(joints, links):
     """Whether three axes are parallel, the fourth one is as well or slides across them, and nothing opens the loop along them."""
-    around, cosines = times(IDENTITY, *links), [link[2][2] for link in links]
-    are_parallel = all(x * x == 1 for x in cosines[:2]) and (cosines[2] == 0 if joints[3] == "P" else cosines[2] ** 2 == 1)
-    return are_parallel and around[2][2] == 1 and around[2][3] == 0
+    axes = [links[0], links[1], times(*links[1:3])] if joints[2] == "P" else links[:3]
+    slide = joints.find("P") - 1  # the link in front of it
+    around, cosines = times(IDENTITY, *links), [link[2][2] for link in axes]
+    is_across = lambda k: cosines[k] == 0 if k == slide else cosines[k] ** 2 == 1
+    return all(map(is_across, range(3))) and around[2][2] == 1 and around[2][3] == 0
 
 
 def about_one_point(links):
@@ -84,23 +94,40 @@ def of_linkage(file, given):
     require(names <= {joints[given]["name"]}, "file: another joint is held")
     pairs = [*map(planar.pair, joints)]
     place = lambda k, body: dict(zip(pairs[k][1], pairs[k][2]))[body]
-    (a, b), order, bodies = pairs[given][1], [given], [pairs[given][1][1]]
+    order, bodies = round_loop(pairs, given, 1)
+    sense = 1 if pairs[order[1]][0] == "R" else -1  # the other way round the input turns backwards
+    order, (b, c, d, a) = round_loop(pairs, given, sense)
+    kinds, (input, second, third, output) = "".join(pairs[k][0] for k in order), order
+    require(kinds in KINDS, "file: a linkage of other joints")
+    between = lambda body, one, other: place(other, body) - place(one, body)
+    crank, side, arm, ground = between(b, input, second), between(c, second, third), between(d, output, third), between(a, input, output)
+    axis = fmpq_mat([[0, 0], [0, 0]])
+    if kinds == "RRRP":
+        axis, turn = slide(pairs[output], a)
+        ground += turn * arm
+    if kinds == "RRPR":
+        u, turn = slide(pairs[third], c)
+        squares = {"offset_squared": (u.transpose() * (side - turn * arm))[1, 0] ** 2 / u.det()}
+    else:
+        squares = {"coupler_squared": side.det(), **({"radius_squared": arm.det()} if kinds == "RRRR" else {})}
+    flat = lambda vector, z: [vector[0, 0], sense * vector[1, 0], fmpq(z)]
+    return written(flat(crank, 0)[:2], flat(axis, int(kinds != "RRRP")), flat(ground, 0), **squares)
+
+
+def round_loop(pairs, given, sense):
+    """The joints and bodies round the one loop: first the second body of the input, or the first one."""
+    order, bodies = [given], [pairs[given][1][::sense][1]]
     for _ in range(3):
         nexts = [k for k in range(4) if k not in order and bodies[-1] in pairs[k][1]]
         require(len(nexts) == 1, "file: the joints are not round one loop")
         order.append(nexts[0])
         bodies.append(next(body for body in pairs[nexts[0]][1] if body != bodies[-1]))
-    input, second, third, output = order
-    require(bodies[3] == a and len(set(bodies)) == 4, "file: the joints are not round one loop")
-    require(all(pairs[k][0] == "R" for k in order[:3]), "file: a slide that is not at the output")
-    _, c, d, _ = bodies
-    crank, ground = place(second, b) - place(input, b), place(output, a) - place(input, a)
-    side, arm = place(third, c) - place(second, c), place(third, d) - place(output, d)
-    zero = 0 * side[0, 0]
-    flat = lambda vector: [vector[0, 0], vector[1, 0], zero]
-    if pairs[output][0] == "R":
-        return written(flat(crank)[:2], side.det(), [zero, zero, zero + 1], flat(ground), arm.det())
-    u, v = pairs[output][3]
+    require(len(set(bodies)) == 4 and {bodies[0], bodies[3]} == {*pairs[given][1]}, "file: the joints are not round one loop")
+    return order, bodies
+
+
+def slide(pair, body):
+    """The line of a slide in a body, and the rotation of the other body against it."""
+    _, (first, _), _, (u, v) = pair
     turn = over_length(u, v) * v.transpose()  # of the second body against the first
-    line, turn = (u, turn) if pairs[output][1][0] == a else (v, turn.transpose())
-    return written(flat(crank)[:2], side.det(), flat(line), flat(ground + turn * arm))
+    return (u, turn) if first == body else (v, turn.transpose())

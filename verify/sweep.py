@@ -9,36 +9,47 @@ from motions import dot
 from quantities import Refused, decimal, fields, is_exact, items, number, require
 
 TRIGONOMETRIC = [fmpq_poly([1, 0, 1]), fmpq_poly([1, 0, -1]), fmpq_poly([0, 2])]  # 1, cos, sin times 1 + x^2
+INSIDE = ("radius_squared", "offset_squared")  # squares that stand with the output
+KINDS = [["coupler_squared", "radius_squared"], ["coupler_squared"], ["offset_squared"]]  # B circles, B slides, a plane turns
 
 
-def written(crank, square, axis, place, radius=None):
+def written(crank, axis, place, **squares):
     """The data in the one form of certificates. The axis is given by whole numbers without a common factor, the first one positive that is
-    not 0; B circles about `place` on it, or it slides along the axis, whose point nearest to the origin is given."""
+    not 0; a centre counts as it is, of a line the point nearest to the origin. Mirrored at the plane z = 0 all of it is as good."""
     require(any(x != 0 for x in axis), "data: an axis is 0")
     whole = [int(x * lcm(*(int(y.q) for y in axis))) for x in axis]
-    common = gcd(*whole) * (1 if next(x for x in whole if x) > 0 else -1)
-    axis = [fmpq(x // common) for x in whole]
-    if radius is None:
+    axis = [fmpq(x // gcd(*whole)) for x in whole]
+    name = "centre" if "radius_squared" in squares else "point"
+    if name == "point":
         place = [x - u * dot(axis, place) / dot(axis, axis) for x, u in zip(place, axis)]
+    first = next(x for x in axis if x != 0)
+    if place[2] < 0 or place[2] == 0 and axis[2] * first < 0:
+        axis, place = ([x, y, -z] for x, y, z in (axis, place))
+    axis = [-x for x in axis] if next(x for x in axis if x != 0) < 0 else axis
     texts = lambda vector: [*map(str, vector)]
-    output = {"point": texts(place)} if radius is None else {"centre": texts(place), "radius_squared": str(radius)}
-    return {"crank": texts(crank), "coupler_squared": str(square), "output": {"axis": texts(axis), **output}}
+    texts_of = lambda keys: {key: str(x) for key, x in squares.items() if key in keys}
+    output = {"axis": texts(axis), name: texts(place), **texts_of(("radius_squared", "offset_squared"))}
+    return {"crank": texts(crank), **texts_of(("coupler_squared",)), "output": output}
 
 
 class FourBar:
-    """A turns about the z axis, at (*crank, 0) where the input is 0; B circles or slides, and its distance from A is constant."""
+    """A turns about the z axis, at (*crank, 0) where the input is 0. B, at a constant distance from A, circles or slides along an axis; or A lies
+    in a plane that turns at a constant distance from the axis."""
     size, equations, spherical = 0, 1, []
 
     def __init__(self, data):
-        crank, square, output = fields(data, ("crank", "coupler_squared", "output"))
-        is_slide = isinstance(output, dict) and "point" in output
-        axis, place, *radius = fields(output, ("axis", "point") if is_slide else ("axis", "centre", "radius_squared"))
+        crank, output, coupler = fields(data, ("crank", "output"), ("coupler_squared",))
+        axis, centre, point, *others = fields(output, ("axis",), ("centre", "point", *INSIDE))
+        texts = {"coupler_squared": coupler, **dict(zip(INSIDE, others))}
+        squares = {key: number(text) for key, text in texts.items() if text is not None}
+        self.kinds = list(squares)
+        require(self.kinds in KINDS, "data: a four-bar has an output that circles, slides or carries a plane")
+        place = centre if "radius_squared" in squares else point
         crank, axis, place = ([number(x) for x in items(vector, n)] for vector, n in ((crank, 2), (axis, 3), (place, 3)))
-        squares = [*map(number, [square, *radius])]
-        self.constants, self.kinds = [*crank, *axis, *place, *squares], [is_slide]
-        require(is_exact(self.constants) and all(x >= 0 for x in squares), "data: a number is not rational, or a square is negative")
-        require(written(crank, squares[0], axis, place, *squares[1:]) == data, "data: the four-bar is not written in the one form of certificates")
-        self.discriminant = discriminant(crank, axis, place, *squares)
+        self.constants = [*crank, *axis, *place, *squares.values()]
+        require(is_exact(self.constants) and all(x >= 0 for x in squares.values()), "data: a number is not rational, or a square is negative")
+        require(written(crank, axis, place, **squares) == data, "data: the four-bar is not written in the one form of certificates")
+        self.discriminant = discriminant([*crank, fmpq(0)], axis, place, **squares)
 
     def __getattr__(self, name):
         raise Refused("proof: four-bars whose input runs are covered by theorem 14 alone")
@@ -49,16 +60,17 @@ def system_of(data):
     return FourBar(data) if "crank" in data else linkages.system_of(data)
 
 
-def discriminant(crank, axis, place, coupler, radius=None):
+def discriminant(a, n, c, coupler_squared=0, radius_squared=None, offset_squared=None):
     """The polynomial D in the half-angle tangent of the input."""
-    a, n, c = [*crank, fmpq(0)], axis, place
     trigonometric = lambda *parts: sum((part * own for part, own in zip(parts, TRIGONOMETRIC)), fmpq_poly())
     # For V = A - c the square |V|^2 and the product V.n.
     side = trigonometric(dot(a, a) + dot(c, c), -2 * dot(a, c), 2 * (a[1] * c[0] - a[0] * c[1]))
     along = trigonometric(-dot(n, c), dot(a, n), a[0] * n[1] - a[1] * n[0])
     one = TRIGONOMETRIC[0]
     across = side * one - along * along / dot(n, n)
-    return coupler * one * one - across if radius is None else 4 * radius * across - (side + (radius - coupler) * one) ** 2
+    if radius_squared is not None:
+        return 4 * radius_squared * across - (side + (radius_squared - coupler_squared) * one) ** 2
+    return across - offset_squared * one * one if offset_squared is not None else coupler_squared * one * one - across
 
 
 def swept(system, data, claim, modes, item, *others):

@@ -2,20 +2,24 @@
 
 use super::chain::Around;
 use super::linkage::{mirrored, square};
-use super::sweep::FourBar;
+use super::sweep::{FourBar, Output};
 use crate::algebra::ring::Ring;
 use crate::catalogue::entry::{Design, Entry};
 use crate::catalogue::{Any, LinkageFile};
 use crate::kinematics::chain::{Geometry, JointKind};
 use crate::kinematics::joint::{JointVariable, Variable};
-use crate::kinematics::linkage::{Accuracy, Gaussian, Pair};
+use crate::kinematics::linkage::{Accuracy, Gaussian, Linkage, LinkageJoint, Pair};
 use crate::kinematics::motion::{Motion, dot};
 use rug::Rational;
 use serde_json::Value;
 
+/// The joints from the input on: A and B are in the middle. Of the last one A lies in a plane of the output.
+const KINDS: [&str; 5] = ["RSSR", "RSSP", "RRRR", "RRRP", "RRPR"];
 /// The reason for other mechanisms.
-const OTHER: &str = "only loops RSSR and RSSP, four rotations about parallel axes or about axes through one point, and slider-cranks whose \
-                     input turns beside the slide are covered";
+const OTHER: &str = "only loops RSSR and RSSP, four rotations about axes that are parallel or meet in one point, and three rotations with a \
+                     slide in their plane are covered";
+/// The reason for other linkages.
+const OTHER_LINKAGE: &str = "only linkages of four bodies round one loop with one slide at most are covered";
 /// The reason for irrational numbers.
 const IRRATIONAL: &str = "four-bars with irrational numbers are not covered";
 
@@ -55,60 +59,70 @@ pub fn data_of_turning_loop(entry: &Entry, joint: usize) -> Result<Value, String
     joints.rotate_left(at.ok_or(OTHER)?);
     let (mut word, links): (String, Vec<Motion<Rational>>) = joints.into_iter().unzip();
     let mut links: Links = links.try_into().map_err(|_| OTHER)?;
-    let is_backwards = !["RSSR", "RSSP", "RRRR", "RRRP"].contains(&word.as_str());
+    let is_backwards = !KINDS.contains(&word.as_str());
     if is_backwards {
         // The other way round the input turns backwards.
         word = word[..1].chars().chain(word[1..].chars().rev()).collect();
         links.reverse();
         links = links.each_ref().map(Motion::inverse);
     }
-    let (is_slide, is_spherical) = (word.ends_with('P'), word.starts_with("RSS"));
-    if !["RSSR", "RSSP", "RRRR", "RRRP"].contains(&word.as_str()) {
-        return Err(OTHER.to_owned());
-    }
-    let mut bar = of_links(links, is_spherical, is_slide).ok_or(OTHER)?;
+    let bar = if KINDS.contains(&word.as_str()) { of_links(links, &word) } else { None };
+    let mut bar = bar.ok_or(OTHER)?;
     if is_backwards {
-        for y in [&mut bar.crank[1], &mut bar.place[1], &mut bar.axis[1]] {
-            *y = Rational::from(-&*y);
-        }
+        bar.mirror();
     }
     bar.written().ok_or_else(|| OTHER.to_owned())
 }
 
-/// Returns the four-bar of a loop of the input, the joints at A and B, and the output, which slides or turns.
-fn of_links(links: Links, is_spherical: bool, is_slide: bool) -> Option<FourBar> {
-    let is_flat = !is_spherical && has_parallel_axes(&links, is_slide);
-    let links = match (is_spherical || is_flat, is_slide) {
-        (true, _) => links,
-        (false, false) => about_one_point(&links)?,
-        (false, true) => return None,
+/// Returns the four-bar of a loop of the input, the joints at A and B, and the output.
+fn of_links(links: Links, word: &str) -> Option<FourBar> {
+    let is_spherical = word.starts_with("RSS");
+    let is_flat = !is_spherical && has_parallel_axes(&links, word);
+    let links = if is_spherical || is_flat {
+        links
+    } else if word == "RRRR" {
+        about_one_point(&links)?
+    } else {
+        return None;
     };
     let ([x, y, height], mut side) = (links[0].translation.clone(), links[1].translation.clone());
-    let (b, ground) = (links[2].inverse().translation, links[3].inverse());
-    let foot = if is_slide { b.clone() } else { [Rational::new(), Rational::new(), b[2].clone()] };
+    let (last, ground) = (links[2].inverse(), links[3].inverse());
+    let b = &last.translation;
+    let foot = if word.ends_with('P') { b.clone() } else { [Rational::new(), Rational::new(), b[2].clone()] };
     let mut place = ground.apply(&foot);
     place[2] -= height;
     if is_flat {
         (side[2], place[2]) = (Rational::new(), Rational::new());
     }
-    let across = Rational::from(b[0].square_ref()) + Rational::from(b[1].square_ref());
-    Some(FourBar {
-        crank: [x, y],
-        coupler_squared: dot(&side, &side),
-        axis: ground.rotation.map(|[_, _, z]| z),
-        place,
-        radius_squared: (!is_slide).then_some(across),
-    })
+    let coupler = dot(&side, &side);
+    let output = match word {
+        "RRPR" => {
+            let p = links[1].then_after(&links[2]).inverse().translation;
+            let offset = Rational::from(&p[0] * &last.rotation[1][2]) - Rational::from(&p[1] * &last.rotation[0][2]);
+            Output::Plane { offset: offset.square() }
+        }
+        "RRRP" | "RSSP" => Output::Slide { coupler },
+        _ => {
+            let radius = Rational::from(b[0].square_ref()) + Rational::from(b[1].square_ref());
+            Output::Circle { coupler, radius }
+        }
+    };
+    Some(FourBar { crank: [x, y], axis: ground.rotation.map(|[_, _, z]| z), place, output })
 }
 
 /// Returns whether three axes are parallel, the fourth one is as well or slides across them, and nothing opens the loop along them.
-fn has_parallel_axes(links: &Links, is_slide: bool) -> bool {
-    let [first, rest @ ..] = links;
-    let around = rest.iter().fold(first.clone(), |product, link| product.then_after(link));
-    let is_along = |link: &Motion<Rational>| Rational::from(link.rotation[2][2].square_ref()) == 1;
-    let is_last = if is_slide { links[2].rotation[2][2] == 0 } else { is_along(&links[2]) };
+fn has_parallel_axes(links: &Links, word: &str) -> bool {
+    let [first, second, third, fourth] = links;
+    let beside = if word == "RRPR" { second.then_after(third) } else { third.clone() };
+    let around = first.then_after(second).then_after(third).then_after(fourth);
+    // The slide is behind the second or the third link.
+    let slide = word.find('P');
+    let is_as_asked = |(k, link): (usize, &Motion<Rational>)| {
+        let cosine = &link.rotation[2][2];
+        if slide == Some(k) { *cosine == 0 } else { Rational::from(cosine.square_ref()) == 1 }
+    };
     let is_whole = around.rotation[2][2] == 1 && around.translation[2] == 0;
-    is_along(&links[0]) && is_along(&links[1]) && is_last && is_whole
+    is_whole && (1..).zip([first, second, &beside]).all(is_as_asked)
 }
 
 /// Returns the links between points of the axes at the distance 1 from the one point in which all axes meet; `None` if they do not, or if two
@@ -149,49 +163,69 @@ pub fn data_of_turning_linkage(file: &LinkageFile, joint: usize) -> Result<Value
     if case.given.iter().any(|given| given.joint() != Some(joint)) {
         return Err("linkages with further given values are not covered".to_owned());
     }
-    let other =
-        || "only linkages of four bodies round one loop, whose input turns beside a slide, are covered".to_owned();
     if linkage.joints.len() != 4 || linkage.bodies.len() != 4 {
-        return Err(other());
+        return Err(OTHER_LINKAGE.to_owned());
     }
-    let (mut order, mut bodies) = (vec![joint], vec![linkage.joints[joint].of[1]]);
-    for last in 0..3 {
-        let body = bodies[last];
-        let mut next = (0..4).filter(|k| !order.contains(k) && linkage.joints[*k].of.contains(&body));
-        let (Some(next), None) = (next.next(), next.next()) else { return Err(other()) };
-        order.push(next);
-        bodies.extend(linkage.joints[next].of.iter().find(|one| **one != body));
+    let forwards = round_loop(linkage, joint, false).ok_or(OTHER_LINKAGE)?;
+    // The other way round the input turns backwards.
+    let is_backwards = linkage.joints[forwards.0[1]].is_prismatic();
+    let (order, [b, c, d, a]) =
+        if is_backwards { round_loop(linkage, joint, true).ok_or(OTHER_LINKAGE)? } else { forwards };
+    let word: String =
+        order.iter().map(|joint| if linkage.joints[*joint].is_prismatic() { 'P' } else { 'R' }).collect();
+    if order.iter().any(|joint| linkage.joints[*joint].is_gear()) || !KINDS.contains(&word.as_str()) {
+        return Err(OTHER_LINKAGE.to_owned());
     }
-    let ([b, c, d, a], [input, second, third, output]) = (bodies.as_slice(), order.as_slice()) else {
-        return Err(other());
+    let [input, second, third, output] = order;
+    let place = |joint: usize, body: usize| {
+        let joint = &linkage.joints[joint];
+        &joint.at[usize::from(joint.of[1] == body)]
     };
-    let is_whole = linkage.joints[joint].of[0] == *a && (0..4).all(|body| bodies.contains(&body));
-    let turns = |k: &&usize| matches!(linkage.joints[**k].pair, Pair::Revolute);
-    if !is_whole || !order[..3].iter().all(|k| turns(&k)) {
-        return Err(other());
-    }
-    let place = |k: &usize, body: &usize| {
-        let joint = &linkage.joints[*k];
-        &joint.at[usize::from(joint.of[1] == *body)]
-    };
-    let between = |body: &usize, from: &usize, to: &usize| place(to, body).sub(place(from, body));
+    let between = |body: usize, from: usize, to: usize| place(to, body).sub(place(from, body));
     let (crank, side, arm, ground) =
         (between(b, input, second), between(c, second, third), between(d, output, third), between(a, input, output));
     let flat = |z: Gaussian| [z.re, z.im, Rational::new()];
-    let (axis, place, radius_squared) = match &linkage.joints[*output].pair {
-        Pair::Revolute => ([0, 0, 1].map(Rational::from), flat(ground), Some(square(&arm))),
-        Pair::Prismatic { turn, along, .. } if linkage.joints[*output].of[0] == *a => {
-            (flat(along.clone()), flat(ground.add(&turn.mul(&arm))), None)
-        }
-        Pair::Prismatic { turn, along, .. } => {
-            let back = mirrored(turn);
-            (flat(along.mul(&back)), flat(ground.add(&back.mul(&arm))), None)
-        }
-        Pair::Gear { .. } => return Err(other()),
+    let upright = [0, 0, 1].map(Rational::from);
+    let coupler = square(&side);
+    let (axis, place, output) = if let Some((along, turn)) = slide(&linkage.joints[output], a) {
+        (flat(along), flat(ground.add(&turn.mul(&arm))), Output::Slide { coupler })
+    } else if let Some((along, turn)) = slide(&linkage.joints[third], c) {
+        let across = mirrored(&along).mul(&side.sub(&turn.mul(&arm))).im;
+        (upright, flat(ground), Output::Plane { offset: across.square() / square(&along) })
+    } else {
+        (upright, flat(ground), Output::Circle { coupler, radius: square(&arm) })
     };
-    let crank = [crank.re, crank.im];
-    let bar = FourBar { crank, coupler_squared: square(&side), axis, place, radius_squared };
-    bar.written().ok_or_else(other)
+    let mut bar = FourBar { crank: [crank.re, crank.im], axis, place, output };
+    if is_backwards {
+        bar.mirror();
+    }
+    bar.written().ok_or_else(|| OTHER_LINKAGE.to_owned())
+}
+
+/// Returns the joints and bodies round one loop: first the second body of the input, or the first one.
+fn round_loop(linkage: &Linkage, input: usize, is_backwards: bool) -> Option<([usize; 4], [usize; 4])> {
+    let [from, to] = linkage.joints[input].of;
+    let (first, last) = if is_backwards { (to, from) } else { (from, to) };
+    let (mut order, mut bodies) = (vec![input], vec![last]);
+    for step in 0..3 {
+        let body = bodies[step];
+        let mut next = (0..4).filter(|k| !order.contains(k) && linkage.joints[*k].of.contains(&body));
+        let (Some(next), None) = (next.next(), next.next()) else { return None };
+        order.push(next);
+        let [one, other] = linkage.joints[next].of;
+        bodies.push(if one == body { other } else { one });
+    }
+    let is_whole = bodies[3] == first && (0..4).all(|body| bodies.contains(&body));
+    Some((order.try_into().ok()?, bodies.try_into().ok()?)).filter(|_| is_whole)
+}
+
+/// Returns the line of a slide in a body, and the rotation of the other body against it; `None` of joints that turn.
+fn slide(joint: &LinkageJoint, body: usize) -> Option<(Gaussian, Gaussian)> {
+    match &joint.pair {
+        Pair::Prismatic { turn, along, .. } if joint.of[0] == body => Some((along.clone(), turn.clone())),
+        Pair::Prismatic { turn, along, .. } => Some((along.mul(&mirrored(turn)), mirrored(turn))),
+        _ => None,
+    }
 }
 
 /// Returns whether a file has a joint that may be the input of the four-bar of these data.

@@ -24,16 +24,23 @@ const LONGEST: usize = 800;
 /// Bits in which pi is compared with rational numbers.
 const PI_BITS: u32 = 512;
 
-/// A four-bar: A turns about the z axis, and is at `(crank, 0)` where the input is 0; B circles about an axis or slides along it, and
-/// its distance from A is constant.
+/// A four-bar: A turns about the z axis, and is at `(crank, 0)` where the input is 0.
 pub(super) struct FourBar {
     pub crank: [Rational; 2],
-    pub coupler_squared: Rational,
     pub axis: [Rational; 3],
-    /// The centre of the circle, or a point that B passes.
+    /// A point of the axis: the centre of a circle, or any one.
     pub place: [Rational; 3],
-    /// `None` where B slides.
-    pub radius_squared: Option<Rational>,
+    pub output: Output,
+}
+
+/// The output, with the squares of its lengths.
+pub(super) enum Output {
+    /// B, at a constant distance from A, circles about the axis.
+    Circle { coupler: Rational, radius: Rational },
+    /// B, at a constant distance from A, slides along the axis.
+    Slide { coupler: Rational },
+    /// A lies in a plane that turns about the axis at a constant distance.
+    Plane { offset: Rational },
 }
 
 /// The claim of a certificate.
@@ -69,43 +76,69 @@ fn number(value: &Value) -> Result<Rational, Fault> {
 impl FourBar {
     fn read(data: &Map<String, Value>) -> Result<Self, Fault> {
         let whole = Value::Object(data.clone());
-        let [crank, square, output] = fields(&whole, ["crank", "coupler_squared", "output"], &[])?;
-        let (axis, place, radius) = if output.get("point").is_some() {
-            let [axis, point] = fields(output, ["axis", "point"], &[])?;
-            (axis, point, None)
-        } else {
-            let [axis, centre, radius] = fields(output, ["axis", "centre", "radius_squared"], &[])?;
-            (axis, centre, Some(number(radius)?))
+        let [crank, output] = fields(&whole, ["crank", "output"], &["coupler_squared"])?;
+        let coupler = data.get("coupler_squared").map(number).transpose()?;
+        let (axis, place, output) = match coupler {
+            Some(coupler) if output.get("point").is_some() => {
+                let [axis, point] = fields(output, ["axis", "point"], &[])?;
+                (axis, point, Output::Slide { coupler })
+            }
+            Some(coupler) => {
+                let [axis, centre, radius] = fields(output, ["axis", "centre", "radius_squared"], &[])?;
+                (axis, centre, Output::Circle { coupler, radius: number(radius)? })
+            }
+            None => {
+                let [axis, point, offset] = fields(output, ["axis", "point", "offset_squared"], &[])?;
+                (axis, point, Output::Plane { offset: number(offset)? })
+            }
         };
-        let (crank, axis, place) = (numbers(crank)?, numbers(axis)?, numbers(place)?);
-        let own = Self { crank, coupler_squared: number(square)?, axis, place, radius_squared: radius };
-        if own.coupler_squared < 0 || own.radius_squared.as_ref().is_some_and(|square| *square < 0) {
-            return refused("data: a square is negative");
-        }
+        let own = Self { crank: numbers(crank)?, axis: numbers(axis)?, place: numbers(place)?, output };
         if own.written() != Some(whole) {
             return refused("data: the four-bar is not written in the one form that docs/certificate.md gives it");
         }
         Ok(own)
     }
 
+    /// Turns the input the other way, by a mirror.
+    pub(super) fn mirror(&mut self) {
+        for y in [&mut self.crank[1], &mut self.place[1], &mut self.axis[1]] {
+            *y = Rational::from(-&*y);
+        }
+    }
+
     /// Returns the data in the one form of certificates: the axis by whole numbers without a common factor, the first one positive that
-    /// is not 0, and of a line the point nearest to the origin; `None` if the axis is 0.
+    /// is not 0, and of a line the point nearest to the origin; `None` if the axis is 0, or a square negative. Mirrored at the plane
+    /// z = 0 all of it is as good.
     pub(super) fn written(&self) -> Option<Value> {
         let mut axis = primitive(&self.axis).map(Rational::from);
-        if *axis.iter().find(|x| **x != 0)? < 0 {
+        let mut place = self.place.clone();
+        if !matches!(self.output, Output::Circle { .. }) {
+            let along = dot(&axis, &place) / dot(&axis, &axis);
+            place = std::array::from_fn(|k| Rational::from(&self.place[k] - Rational::from(&axis[k] * &along)));
+        }
+        let is_negative = |v: &[Rational; 3]| v.iter().find(|x| **x != 0).map(|x| *x < 0);
+        if place[2] < 0 || place[2] == 0 && (axis[2] < 0) != is_negative(&axis)? {
+            (axis[2], place[2]) = (Rational::from(-&axis[2]), Rational::from(-&place[2]));
+        }
+        if is_negative(&axis)? {
             axis = axis.map(|x| -x);
         }
-        let along = dot(&axis, &self.place) / dot(&axis, &axis);
-        let foot = |k: usize| Rational::from(&self.place[k] - Rational::from(&axis[k] * &along));
         let texts = |vector: &[Rational]| vector.iter().map(Rational::to_string).collect::<Vec<_>>();
-        let output = match &self.radius_squared {
-            None => json!({ "axis": texts(&axis), "point": texts(&[foot(0), foot(1), foot(2)]) }),
-            Some(square) => {
-                json!({ "axis": texts(&axis), "centre": texts(&self.place), "radius_squared": square.to_string() })
+        let (crank, axis, place) = (texts(&self.crank), texts(&axis), texts(&place));
+        let square = |x: &Rational| (*x >= 0).then(|| x.to_string());
+        Some(match &self.output {
+            Output::Circle { coupler, radius } => json!({
+                "crank": crank,
+                "coupler_squared": square(coupler)?,
+                "output": { "axis": axis, "centre": place, "radius_squared": square(radius)? },
+            }),
+            Output::Slide { coupler } => {
+                json!({ "crank": crank, "coupler_squared": square(coupler)?, "output": { "axis": axis, "point": place } })
             }
-        };
-        let square = self.coupler_squared.to_string();
-        Some(json!({ "crank": texts(&self.crank), "coupler_squared": square, "output": output }))
+            Output::Plane { offset } => {
+                json!({ "crank": crank, "output": { "axis": axis, "point": place, "offset_squared": square(offset)? } })
+            }
+        })
     }
 
     /// Returns the polynomial D in the half-angle tangent of the input.
@@ -122,11 +155,14 @@ impl FourBar {
         let along = trigonometric(-dot(n, c), &dot(&a, n), crossed(n));
         let circle = Univariate::circle();
         let across = side.mul(&circle).sub(&along.mul(&along).scale(&dot(n, n).recip()));
-        let Some(radius) = &self.radius_squared else {
-            return circle.mul(&circle).scale(&self.coupler_squared).sub(&across);
-        };
-        let rest = side.add(&circle.scale(&Rational::from(radius - &self.coupler_squared)));
-        across.scale(&Rational::from(radius * 4)).sub(&rest.mul(&rest))
+        match &self.output {
+            Output::Circle { coupler, radius } => {
+                let rest = side.add(&circle.scale(&Rational::from(radius - coupler)));
+                across.scale(&Rational::from(radius * 4)).sub(&rest.mul(&rest))
+            }
+            Output::Slide { coupler } => circle.mul(&circle).scale(coupler).sub(&across),
+            Output::Plane { offset } => across.sub(&circle.mul(&circle).scale(offset)),
+        }
     }
 }
 

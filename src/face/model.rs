@@ -191,7 +191,8 @@ pub fn mobility(name: &str) -> Result<Value> {
 /// # Errors
 /// For text that is no certificate, and for a file that cannot be read.
 pub fn verify(certificates: &str, file: Option<&str>) -> Result<Value> {
-    let entry = file.map(|file| load_any(file, &Options::default())).transpose()?;
+    let options = Options { chains: Chains::Any, ..Options::default() };
+    let entry = file.map(|file| load_any(file, &options)).transpose()?;
     let mut found = Vec::new();
     let read = check_all(certificates, entry.as_ref(), |_, outcome| {
         let mut answer = json!({

@@ -3,7 +3,7 @@
 use super::arguments::VerifyOptions;
 use super::exit::{Exit, Fault, complain};
 use super::output::print;
-use looproot::internal::catalogue::load_any;
+use looproot::internal::catalogue::{Chains, Options, load_any};
 use looproot::internal::certificate::{Fault as Broken, check_all};
 use looproot::internal::error::Error;
 use std::fs::File;
@@ -16,7 +16,9 @@ const LARGEST: u64 = 128 << 20;
 pub fn run(options: &VerifyOptions) -> Result<Exit, Fault> {
     let path = &options.certificate;
     let text = text(path)?;
-    let entry = options.file.as_ref().map(|file| load_any(file, &options.read.options())).transpose()?;
+    // A certificate may be about a mechanism without poses and inputs.
+    let read = Options { chains: Chains::Any, ..options.read.options() };
+    let entry = options.file.as_ref().map(|file| load_any(file, &read)).transpose()?;
     let (mut lines, mut exit) = (String::new(), Exit::Complete);
     let read = check_all(&text, entry.as_ref(), |number, outcome| match outcome {
         Ok(holds) => {
