@@ -85,7 +85,7 @@ impl fmt::Display for Holds {
             }
             Self::Branches { branches, circuits, limits } => write!(
                 f,
-                "a full turn of the input: {branches} branches, {circuits} circuits, {limits} limit positions: complete, proved"
+                "a full turn of the input, branches {branches}, circuits {circuits}, limit positions {limits}: complete, proved"
             ),
             Self::Mobility(0) => write!(f, "immobile, of dimension 0: proved"),
             Self::Mobility(dimension) => write!(f, "mobile, of dimension {dimension}: proved"),

@@ -51,7 +51,8 @@ def changed(certificate):
             digits = [k for k in range(number.start(), number.end()) if text[k].isdigit()][:3]
             digit = digits[(at + len(path)) % len(digits)]
             own = text[:digit] + str((int(text[digit]) + 3) % 10) + text[digit + 1:]
-            name = next((str(key) for key in path if key in FREE), "/".join(str(k) for k in path if isinstance(k, str)))
+            is_free = lambda key: key in FREE and path[0] != "data"
+            name = next((str(key) for key in path if is_free(key)), "/".join(str(k) for k in path if isinstance(k, str)))
             yield name, replaced(certificate, path, type(value)(own))
 
 

@@ -540,3 +540,116 @@ def test_forged_linkages_are_refused(tmp_path, checker):
         forged["proof"][0]["aid"].update(aid)
         answer = CHECKERS[checker](written(tmp_path / "forged", forged))
         assert answer.returncode in (1, 2) and "holds" not in answer.stdout and "panicked" not in answer.stderr, (key, aid, answer)
+
+
+# Loops that are swept, their joints, and of how many branches, circuits and limit positions.
+SWEPT = {"overconstrained/planar_4r": {"1": (2, 2, 0), "3": (4, 2, 4)}, "overconstrained/spherical_4r": {"2": (2, 2, 0), "4": (4, 2, 4)},
+         "overconstrained/slider_crank": {"1": (2, 2, 0), "2": (2, 2, 0), "3": (4, 2, 4)}, "overconstrained/hooke_rur": {"3": (4, 2, 4)},
+         "linkage/watt_line": {"": (2, 1, 2)}, "linkage/chebyshev_line": {"": (4, 2, 4)}, "linkage/holditch": {"": (2, 2, 0)},
+         "linkage/crank_slider": {"": (2, 1, 2)}, "linkage/inverted_slider_crank": {"": (2, 2, 0)}}
+RSSR = """
+[mechanism]
+kind = "loop"
+convention = "dh"
+joints = [%s]
+"""
+COUPLERS = {"9": (2, 1, 2), "8": (2, 2, 0), "30": (0, 0, 0)}  # a coupler of 30 is too long
+
+
+def rssr(coupler, first):
+    joints = ['{ type = "R", a = 6, alpha = 0, d = 1 }', '{ type = "S", a = "%s", alpha = 0 }' % coupler, '{ type = "S", a = -4, alpha = 0 }',
+              '{ type = "R", a = -2, tan_half_alpha = "-1/4", d = -4 }']
+    return RSSR % ", ".join(joints[first:] + joints[:first])
+
+
+def sweep(mechanism, joint, place):
+    """The certificate of a full turn, and the answer itself."""
+    options = ["--from", "-180 deg", "--to", "180 deg", "--steps", "12", "--json", *(["--joint", joint] if joint else [])]
+    answer = run(LOOPROOT, "sweep", mechanism, *options, "--certificate", place)
+    return place, json.loads(answer.stdout)
+
+
+@pytest.fixture(scope="session")
+def sweeps(tmp_path_factory):
+    """(mechanism, joint) to the certificate, the answer and the numbers that are expected of it."""
+    place, found = tmp_path_factory.mktemp("sweeps"), {}
+    for entry, joints in SWEPT.items():
+        for joint, counts in joints.items():
+            found[entry, joint] = *sweep(f"equations/{entry}.toml", joint, place / f"{entry.replace('/', '-')}-{joint}"), counts
+    for coupler, counts in COUPLERS.items():
+        for first in range(4):  # the input is the joint behind it, or in front of it
+            (mechanism := place / f"{coupler}-{first}.toml").write_text(rssr(coupler, first))
+            joint = str((4 - first) % 4 + 1)
+            found[str(mechanism), joint] = *sweep(mechanism, joint, place / f"{coupler}-{first}"), counts
+    return found
+
+
+@pytest.mark.parametrize("checker", CHECKERS)
+def test_sweeps_are_certified(sweeps, checker):
+    texts = {}
+    for (mechanism, joint), (certificate, listed, counts) in sweeps.items():
+        file = mechanism if mechanism.endswith(".toml") else f"equations/{mechanism}.toml"
+        answer = CHECKERS[checker](certificate, "--file", file)
+        assert answer.returncode == 0 and f"branches {counts[0]}, circuits {counts[1]}" in answer.stdout, (mechanism, joint, answer)
+        claim = json.loads(certificate.read_text())["claim"]
+        circuits = len({branch["circuit"] for branch in listed["branches"]})
+        assert (len(listed["branches"]), circuits, len(claim["limits"])) == counts and listed["verdict"]["status"] == claim["status"]
+        found = sorted(limit["input"] for limit in listed["limits"])
+        assert found == pytest.approx([float(limit["centre"]) for limit in claim["limits"]], abs=1e-9)
+        other = CHECKERS[checker](certificate, "--file", "equations/linkage/steering_trapezoid.toml")
+        assert other.returncode == 2 and "file" in other.stdout, other
+        texts[mechanism, joint] = json.loads(certificate.read_text())["data"]
+    # Wherever the list of joints begins, the four-bar is the same.
+    same = [data for (mechanism, _), data in texts.items() if "/9-" in mechanism]
+    assert len(same) == 4 and all(data == same[0] for data in same)
+
+
+def test_no_number_of_a_sweep_may_change(sweeps, capsys):
+    sys.path.insert(0, str(pathlib.Path(__file__).parent))
+    import mutations
+    assert mutations.main([str(certificate) for certificate, *_ in sweeps.values()]) == 0, capsys.readouterr().out
+
+
+@pytest.mark.parametrize("checker", CHECKERS)
+def test_forged_sweeps_are_refused(sweeps, tmp_path, checker):
+    own, slide, plane = (json.loads(sweeps[key][0].read_text()) for key in (
+        ("linkage/watt_line", ""), ("linkage/crank_slider", ""), ("linkage/inverted_slider_crank", "")))
+    claimed = lambda **other: {**own, "claim": {**own["claim"], **other}}
+    given = lambda **other: {**own, "data": {**own["data"], **other}}
+    output = lambda **other: given(output={**own["data"]["output"], **other})
+    one, other = own["claim"]["limits"]
+    forged = {
+        "other branches": claimed(branches=4), "other circuits": claimed(circuits=2), "another word": claimed(status="unreachable"),
+        "a limit left out": claimed(limits=[one]), "the same one twice": claimed(limits=[one, one]), "another order": claimed(limits=[other, one]),
+        "a wide interval": claimed(limits=[one, {**other, "radius": "0.1"}]), "another place": claimed(limits=[one, {**other, "centre": "1.1"}]),
+        "a turn on": claimed(limits=[other, {**one, "centre": "5.77219455988255"}]), "no radius": claimed(limits=[one, {**other, "radius": "0"}]),
+        "a longer crank": given(crank=["3", "0"]), "a number in another form": given(crank=["2.0", "0"]), "a further number": given(offset_squared="1"),
+        "a common factor": output(axis=["0", "0", "2"]), "an axis backwards": output(axis=["0", "0", "-1"]), "no axis": output(axis=["0", "0", "0"]),
+        "a mirrored centre": output(centre=["4", "1", "-1"]), "a negative square": output(radius_squared="-4"), "no circle": output(point=["4", "1", "0"]),
+        "an irrational number": given(coupler_squared="sqrt(2)"), "no number": given(coupler_squared="1/0"),
+        "a mode": {**own, "modes": [{}]}, "no proof": {**own, "proof": []}, "proved twice": {**own, "proof": own["proof"] * 2},
+        "another discriminant": {**own, "proof": slide["proof"]}, "a multiple of it": {**own, "proof": [
+            {"kind": "discriminant", "polynomial": [str(2 * int(c)) for c in own["proof"][0]["polynomial"]]}]},
+        "another verb": claimed(verb="solve"), "a point that is not the nearest": {**slide, "data": {
+            **slide["data"], "output": {"axis": ["3", "4", "0"], "point": ["11", "-8", "0"]}}},
+        "a slide": {**plane, "data": {**slide["data"]}}, "a coupler too many": {**plane, "data": {**plane["data"], "coupler_squared": "1"}},
+    }
+    # A kite can be folded flat: branches meet there.
+    folded = {"crank": ["1", "0"], "coupler_squared": "9", "output": {"axis": ["0", "0", "1"], "centre": ["3", "0", "0"], "radius_squared": "1"}}
+    forged["a parallelogram"] = {**own, "data": folded, "claim": {**own["claim"], "circuits": 2, "limits": []}, "proof": [
+        {"kind": "discriminant", "polynomial": ["0", "0", "144", "0", "0"]}]}
+    for name, certificate in forged.items():
+        answer = CHECKERS[checker](written(tmp_path / "forged", certificate))
+        assert answer.returncode in (1, 2) and "holds" not in answer.stdout and "Traceback" not in answer.stderr, (name, answer)
+        assert "panicked" not in answer.stderr, (name, answer)
+
+
+def test_sweeps_that_have_no_certificate_say_why(tmp_path):
+    for entry, joint, turn, why in (
+        ("linkage/coupler_cognate", "", "360 deg", "multiple real root"), ("linkage/level_four_bar", "", "360 deg", "half a turn"),
+        ("linkage/watt_line", "", "90 deg", "full turns"), ("loop/rssr", "1", "360 deg", "not proved"), ("linkage/watt_1", "", "360 deg", "four bodies"),
+        ("overconstrained/bennett_a", "1", "360 deg", "only loops RSSR"), ("linkage/spherical_four_bar", "", "360 deg", "on the sphere"),
+    ):
+        answer = run(LOOPROOT, "sweep", f"equations/{entry}.toml", "--from", "0", "--to", turn, "--steps", "12", "-q",
+                     "--certificate", tmp_path / "none", *(["--joint", joint] if joint else []))
+        assert answer.returncode in (0, 2) and why in answer.stderr and not (tmp_path / "none").exists(), (entry, answer)
