@@ -554,6 +554,7 @@ convention = "dh"
 joints = [%s]
 """
 COUPLERS = {"9": (2, 1, 2), "8": (2, 2, 0), "30": (0, 0, 0)}  # a coupler of 30 is too long
+OTHERS = {("0.toml", "4"), ("1.toml", "3")}  # the other joint as the input
 
 
 def rssr(coupler, first):
@@ -581,6 +582,10 @@ def sweeps(tmp_path_factory):
             (mechanism := place / f"{coupler}-{first}.toml").write_text(rssr(coupler, first))
             joint = str((4 - first) % 4 + 1)
             found[str(mechanism), joint] = *sweep(mechanism, joint, place / f"{coupler}-{first}"), counts
+        for first in range(2):  # the other joint as the input, which turns backwards
+            (mechanism := place / f"{coupler}-{first}.toml").write_text(rssr(coupler, first))
+            joint = str(4 - first)
+            found[str(mechanism), joint] = *sweep(mechanism, joint, place / f"{coupler}-{first}-back"), counts
     return found
 
 
@@ -600,8 +605,9 @@ def test_sweeps_are_certified(sweeps, checker):
         assert other.returncode == 2 and "file" in other.stdout, other
         texts[mechanism, joint] = json.loads(certificate.read_text())["data"]
     # Wherever the list of joints begins, the four-bar is the same.
-    same = [data for (mechanism, _), data in texts.items() if "/9-" in mechanism]
-    assert len(same) == 4 and all(data == same[0] for data in same)
+    for count, is_other in (4, False), (2, True):
+        same = [data for (mechanism, joint), data in texts.items() if "/9-" in mechanism and ((mechanism[-6:], joint) in OTHERS) == is_other]
+        assert len(same) == count and all(data == same[0] for data in same)
 
 
 def test_no_number_of_a_sweep_may_change(sweeps, capsys):
