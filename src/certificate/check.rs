@@ -110,14 +110,8 @@ pub fn check(certificate: &Value, file: Option<&Any>) -> Result<Holds, Fault> {
         let found = check_families(&record.data, &record.claim.status, claim, record.modes.len(), &record.proof);
         return found.map(Holds::Families);
     }
-    if let Some(claim) = &record.claim.sweep {
-        let found = check_sweep(&record.data, &record.claim.status, claim, record.modes.len(), &record.proof)?;
-        let data = Value::Object(record.data);
-        if file.is_some_and(|file| !four_bars::is_about(file, &data)) {
-            return refused(OTHER_FILE);
-        }
-        let [branches, circuits, limits] = found;
-        return Ok(Holds::Branches { branches, circuits, limits });
+    if record.claim.sweep.is_some() {
+        return of_sweep(record, file);
     }
     let is_linkage = record.data.get("mechanism").and_then(|own| own.get("kind")) == Some(&Value::from("linkage"));
     if is_linkage && record.claim.verb == "solve" {
@@ -348,6 +342,18 @@ fn of_linkage(record: Record, file: Option<&Any>) -> Result<Holds, Fault> {
     }
     check_status(&record.claim, real)?;
     Ok(Holds::Solutions { complex, real })
+}
+
+/// Checks a certificate of `sweep`: theorem 14.
+fn of_sweep(record: Record, file: Option<&Any>) -> Result<Holds, Fault> {
+    let Some(claim) = &record.claim.sweep else { return refused("claim: it is about no branches") };
+    let status = &record.claim.status;
+    let [branches, circuits, limits] = check_sweep(&record.data, status, claim, record.modes.len(), &record.proof)?;
+    let data = Value::Object(record.data);
+    if file.is_some_and(|file| !four_bars::is_about(file, &data)) {
+        return refused(OTHER_FILE);
+    }
+    Ok(Holds::Branches { branches, circuits, limits })
 }
 
 /// Checks a certificate of `mobility`.
