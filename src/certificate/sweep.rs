@@ -114,7 +114,7 @@ impl FourBar {
         let mut place = self.place.clone();
         if !matches!(self.output, Output::Circle { .. }) {
             let along = dot(&axis, &place) / dot(&axis, &axis);
-            place = std::array::from_fn(|k| Rational::from(&self.place[k] - Rational::from(&axis[k] * &along)));
+            place = std::array::from_fn(|k| &self.place[k] - Rational::from(&axis[k] * &along));
         }
         let is_negative = |v: &[Rational; 3]| v.iter().find(|x| **x != 0).map(|x| *x < 0);
         if place[2] < 0 || place[2] == 0 && (axis[2] < 0) != is_negative(&axis)? {

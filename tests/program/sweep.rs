@@ -287,6 +287,29 @@ fn a_translation_is_swept_in_metres() {
 }
 
 #[test]
+fn branches_of_a_four_bar_are_certified() {
+    let path = concat!(env!("CARGO_TARGET_TMPDIR"), "/four_bar.cert");
+    let turn = ["--from", "0", "--to", "360 deg", "--steps", "12", "-q", "--certificate", path];
+    for (entry, holds) in [
+        (&["linkage/watt_line"][..], "branches 2, circuits 1, limit positions 2"),
+        (&["overconstrained/spherical_4r", "--joint", "4"], "branches 4, circuits 2, limit positions 4"),
+        (&["overconstrained/slider_crank", "--joint", "2"], "branches 2, circuits 2, limit positions 0"),
+    ] {
+        printed(&[&["sweep"][..], entry, &turn].concat());
+        let answer = printed(&["verify", path, "--file", entry[0]]);
+        assert!(answer.contains(holds), "{answer}");
+        assert_eq!(run(&["verify", path, "--file", "linkage/holditch"]).status.code(), Some(2));
+        let changed = std::fs::read_to_string(path).unwrap().replace("\"crank\":[\"", "\"crank\":[\"7");
+        std::fs::write(path, changed).unwrap();
+        assert_eq!(run(&["verify", path]).status.code(), Some(2), "{entry:?}");
+        std::fs::remove_file(path).unwrap();
+    }
+    let none = run(&[&["sweep", "bennett_a", "--joint", "1"][..], &turn].concat());
+    assert!(String::from_utf8_lossy(&none.stderr).contains("no certificate: only loops RSSR"), "{none:?}");
+    assert!(!std::path::Path::new(path).exists());
+}
+
+#[test]
 fn what_cannot_be_swept_is_said() {
     let range = ["--from", "0", "--to", "1"];
     for (arguments, words) in [
