@@ -75,9 +75,10 @@ def discriminant(a, n, c, coupler_squared=0, radius_squared=None, offset_squared
 
 def swept(system, data, claim, modes, item, *others):
     """The branches over a full turn of the input."""
-    kind, polynomial = fields(item, ("kind", "polynomial"))
+    is_one = isinstance(system, FourBar) and item["kind"] == "discriminant" and not others
+    require(is_one, "proof: the branches of a four-bar are shown by one discriminant")
+    _, polynomial = fields(item, ("kind", "polynomial"))
     items(modes, 0)
-    require(isinstance(system, FourBar) and kind == "discriminant" and not others, "proof: the branches of a four-bar are shown by one discriminant")
     own = system.discriminant
     require(own.degree() == 4, "proof: discriminant: it has a root at half a turn of the input, or is 0")
     # Without limit positions nothing else would tell these data from others.

@@ -110,7 +110,7 @@ pub fn check(certificate: &Value, file: Option<&Any>) -> Result<Holds, Fault> {
         let found = check_families(&record.data, &record.claim.status, claim, record.modes.len(), &record.proof);
         return found.map(Holds::Families);
     }
-    if record.claim.sweep.is_some() {
+    if record.claim.verb == "sweep" {
         return of_sweep(record, file);
     }
     let is_linkage = record.data.get("mechanism").and_then(|own| own.get("kind")) == Some(&Value::from("linkage"));

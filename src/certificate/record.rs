@@ -85,7 +85,8 @@ fn claim(value: &Value) -> Result<Claim, Fault> {
         let families = Some(families::Claim::read(families, links, joints)?);
         return Ok(Claim { verb, status, proof, families, ..Claim::default() });
     }
-    if value.get("verb").and_then(Value::as_str) == Some("sweep") {
+    let is_sweep = value.get("verb").and_then(Value::as_str) == Some("sweep");
+    if is_sweep && value.get("branches").is_some() {
         let needed = ["verb", "status", "proof", "branches", "circuits", "limits"];
         let [verb, status, word, branches, circuits, limits] = fields(value, needed, &[])?;
         let (verb, status, proof) = words(verb, status, word)?;
