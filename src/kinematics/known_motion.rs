@@ -40,6 +40,14 @@ impl KnownMotion {
         }
     }
 
+    /// The inverse motion.
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        let Self { exact, enclosed, algebraic } = self;
+        let algebraic = algebraic.as_ref().map(Motion::inverse);
+        Self { exact: exact.inverse(), enclosed: enclosed.inverse(), algebraic }
+    }
+
     /// The image of a direction.
     #[must_use]
     pub fn direction(&self, field: Option<&RealField>, along: &[Number; 3]) -> [Number; 3] {

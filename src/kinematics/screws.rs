@@ -81,7 +81,7 @@ impl Chain {
     #[must_use]
     pub fn in_screws(&self, held: &[(usize, Held)], behind: &[Behind]) -> Option<Self> {
         let field = self.field_with(held, behind);
-        let Frames { joints: own, mut tool } = self.frames(held, field.as_ref())?;
+        let Frames { joints: own, base, mut tool } = self.frames(held, field.as_ref())?;
         let field = field.as_ref().map(|field| &field.0);
         let kind = |variable: &Variable| match variable {
             Variable::Rotation => JointKind::Revolute,
@@ -104,7 +104,7 @@ impl Chain {
             }
         }
         let geometry = Geometry::Screws { joints, home: Box::new(tool.placement(field)) };
-        Some(Self { geometry, base: Placement::identity(), tool: Placement::identity() })
+        Some(Self { geometry, base: base.placement(field), tool: Placement::identity() })
     }
 
     /// The field that holds the numbers of the chain, of what is held and of what stands behind the tool.
@@ -119,6 +119,9 @@ impl Chain {
 
     /// The frames of the joints that are not held, each with its z axis along the joint, and the frame of the tool, in the
     /// home position.
+    ///
+    /// They are seen from behind a joint that is held at a value that is not exact, if most joints are there: incidences of axes
+    /// between which all is exact remain exact.
     fn frames(&self, held: &[(usize, Held)], field: Option<&DataField>) -> Option<Frames> {
         let (variables, exact) = self.unknowns_and_constants::<Rational>()?;
         let (_, enclosed) = self.unknowns_and_constants::<Enclosure>()?;
@@ -127,25 +130,60 @@ impl Chain {
             let algebraic = algebraic.as_ref().and_then(|all| all.get(k).cloned());
             KnownMotion { exact, enclosed, algebraic }
         });
-        let mut at = constants.next()?;
-        let mut joints = Vec::new();
+        let mut part = Part { joints: Vec::new(), whole: constants.next()? };
+        let mut parts = Vec::new();
         for (k, (variable, constant)) in variables.into_iter().zip(constants).enumerate() {
             match held.iter().find(|(own, _)| *own == k) {
                 Some((_, value)) => {
                     let algebraic = field.zip(value.in_closed_form()).and_then(|(field, own)| field.motion(&own));
                     let turned = KnownMotion { exact: value.motion()?, enclosed: value.motion()?, algebraic };
-                    at = at.then_after(&turned);
+                    part.whole = part.whole.then_after(&turned);
+                    if turned.algebraic.is_none() {
+                        parts.push(part);
+                        part = Part { joints: Vec::new(), whole: KnownMotion::identity() };
+                    }
                 }
-                None => joints.push((variable, at.clone())),
+                None => part.joints.push((variable, part.whole.clone())),
             }
-            at = at.then_after(&constant);
+            part.whole = part.whole.then_after(&constant);
         }
-        Some(Frames { joints, tool: at })
+        parts.push(part);
+        Some(Frames::of(&parts))
     }
+}
+
+/// The joints between two that are held at values that are not exact, or between one of these and an end of the chain.
+struct Part {
+    /// The frames of the joints that are not held, seen from the beginning of the part.
+    joints: Vec<(Variable, KnownMotion)>,
+    /// The motion from its beginning to its end.
+    whole: KnownMotion,
 }
 
 /// The frames of the joints, and that of the tool.
 struct Frames {
     joints: Vec<(Variable, KnownMotion)>,
+    /// From the world to what they are seen from.
+    base: KnownMotion,
     tool: KnownMotion,
+}
+
+impl Frames {
+    /// The frames seen from the beginning of the first part with the most joints.
+    fn of(parts: &[Part]) -> Self {
+        let most = parts.iter().map(|part| part.joints.len()).max();
+        let chosen = parts.iter().position(|part| Some(part.joints.len()) == most).unwrap_or(0);
+        let over =
+            |parts: &[Part]| parts.iter().fold(KnownMotion::identity(), |motion, part| motion.then_after(&part.whole));
+        let beginning = |k: usize| match k.checked_sub(chosen) {
+            Some(_) => over(&parts[chosen..k]),
+            None => over(&parts[k..chosen]).inverse(),
+        };
+        let of_part = |(k, part): (usize, &Part)| {
+            let beginning = beginning(k);
+            part.joints.iter().map(|(variable, frame)| (*variable, beginning.then_after(frame))).collect::<Vec<_>>()
+        };
+        let joints = parts.iter().enumerate().flat_map(of_part).collect();
+        Self { joints, base: over(&parts[..chosen]), tool: beginning(parts.len()) }
+    }
 }
