@@ -5,7 +5,9 @@
 
 mod boundary;
 mod by_basis;
+mod by_ring;
 mod chain;
+mod coordinate_ring;
 mod cuts;
 mod equation;
 mod four_bar;
@@ -15,6 +17,7 @@ mod linkage;
 mod platform;
 mod polynomial;
 mod pose;
+mod ring_symbolic;
 mod sphere;
 mod substitution;
 mod surface;
@@ -27,6 +30,7 @@ mod two_sides;
 mod ways;
 
 pub use by_basis::{Equations, relation_by_bases};
+pub use by_ring::{RingDerivation, RingPolynomial, Unknown, derive_in_space, derive_on_sphere};
 pub use equation::Equation;
 pub use interpolation::Watch;
 pub use linkage::{
@@ -35,6 +39,7 @@ pub use linkage::{
 };
 pub use polynomial::{ClosurePolynomial, Removed, Root};
 pub use pose::RootPose;
+pub use ring_symbolic::{RingSymbolic, derive_in_space_with_symbols, derive_on_sphere_with_symbols};
 pub use sphere::{
     SpecialPoint, SphereCurve, SphereEnd, SphereSymbol, SphereSymbolic, Transfer, sphere_sides, sphere_trace,
     sphere_with_symbols, transfer,

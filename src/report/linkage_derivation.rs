@@ -30,7 +30,7 @@ pub(super) fn rational(polynomial: &Polynomial<Int>) -> Polynomial<Rational> {
     polynomial.map(|c| Some(Rational::from(c.to_integer()))).unwrap_or_else(Polynomial::zero)
 }
 
-fn univariate(polynomial: &Univariate<Integer>) -> Polynomial<Rational> {
+pub(super) fn univariate(polynomial: &Univariate<Integer>) -> Polynomial<Rational> {
     let coefficients = polynomial.coefficients().iter().map(Rational::from).collect();
     Polynomial::from_univariate(0, &Univariate::new(coefficients))
 }
@@ -112,8 +112,36 @@ fn group_json(file: &LinkageFile, one: &GroupPolynomial) -> Value {
     })
 }
 
-fn coefficients(polynomial: &Univariate<Integer>) -> Vec<String> {
+pub(super) fn coefficients(polynomial: &Univariate<Integer>) -> Vec<String> {
     polynomial.coefficients().iter().map(ToString::to_string).collect()
+}
+
+/// Writes a closure polynomial and its roots into a document.
+pub(super) fn insert_polynomial(
+    document: &mut Value,
+    variable: &str,
+    polynomial: &Univariate<Integer>,
+    at_pi: usize,
+    proved: bool,
+) {
+    let roots = polynomial.real_roots();
+    document["degree"] = json!(polynomial.degree().unwrap_or(0));
+    document["real_roots"] = json!(roots.len());
+    document["proved"] = json!(proved);
+    document["at_pi"] = json!(at_pi);
+    document["polynomial"] = json!({ "variable": variable, "coefficients": coefficients(polynomial) });
+    document["roots"] = roots
+        .into_iter()
+        .map(|mut root| {
+            let exact = root.exact().map(|q| q.to_string());
+            json!({ "value": number(root.to_f64()), "exact": exact, "multiplicity": root.multiplicity() })
+        })
+        .collect();
+    document["square_free"] = polynomial
+        .square_free_decomposition()
+        .iter()
+        .map(|(factor, k)| json!({ "degree": factor.degree().unwrap_or(0), "multiplicity": k }))
+        .collect();
 }
 
 /// The exponents of so many variables and the coefficient of every term.
@@ -219,29 +247,12 @@ pub fn json(file: &LinkageFile, case: usize, derivation: &LinkageDerivation) -> 
     });
     let best = derivation.polynomials.first();
     document["unknowns"] = best.iter().map(|best| tangent(file, best.body)).collect();
-    document["degree"] = json!(best.map(|best| best.coefficients.degree().unwrap_or(0)));
+    document["degree"] = Value::Null;
     document["real_roots"] = Value::Null;
     document["polynomial"] = Value::Null;
     if let Some(best) = best {
-        let roots = best.coefficients.real_roots();
-        document["real_roots"] = json!(roots.len());
-        document["proved"] = json!(best.is_proved());
-        document["at_pi"] = json!(best.at_pi);
-        document["polynomial"] =
-            json!({ "variable": tangent(file, best.body), "coefficients": coefficients(&best.coefficients) });
-        document["roots"] = roots
-            .into_iter()
-            .map(|mut root| {
-                let exact = root.exact().map(|q| q.to_string());
-                json!({ "value": number(root.to_f64()), "exact": exact, "multiplicity": root.multiplicity() })
-            })
-            .collect();
-        document["square_free"] = best
-            .coefficients
-            .square_free_decomposition()
-            .iter()
-            .map(|(factor, k)| json!({ "degree": factor.degree().unwrap_or(0), "multiplicity": k }))
-            .collect();
+        let variable = tangent(file, best.body);
+        insert_polynomial(&mut document, &variable, &best.coefficients, best.at_pi, best.is_proved());
     }
     document
 }

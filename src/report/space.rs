@@ -24,7 +24,7 @@ fn placed(given: &SpaceGiven) -> ([f64; 4], [f64; 3]) {
 }
 
 /// Returns the inputs in words.
-fn asked(file: &SpaceFile, given: &[SpaceGiven]) -> String {
+pub(super) fn asked(file: &SpaceFile, given: &[SpaceGiven]) -> String {
     let linkage = &file.linkage;
     let one = |given: &SpaceGiven| {
         if let (Some(joint), Some(value)) = (given.joint, given.value) {

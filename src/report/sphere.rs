@@ -26,7 +26,7 @@ fn quaternion(given: &SphereGiven) -> [f64; 4] {
 }
 
 /// Returns the inputs in words.
-fn asked(file: &SphereFile, given: &[SphereGiven]) -> String {
+pub(super) fn asked(file: &SphereFile, given: &[SphereGiven]) -> String {
     let linkage = &file.linkage;
     let one = |given: &SphereGiven| {
         let q = quaternion(given).map(|part| short(part, 6)).join(", ");

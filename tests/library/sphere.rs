@@ -243,7 +243,7 @@ fn relations_with_symbols_hold_at_all_assemblies() {
     {
         let file = builtin(&format!("linkage/{name}"));
         let case = &file.cases[0];
-        let found = sphere_with_symbols(&file.linkage, case.given[0].joint.unwrap()).unwrap();
+        let found = sphere_with_symbols(&file.linkage, case.given[0].joint.unwrap(), &[]).unwrap();
         assert!(found.symbols.len() >= symbols, "{name}: {:?}", found.symbols);
         assert!((0..2).all(|k| found.polynomial.degree(k) <= degrees[k]), "{name}");
         let answer = solve(&file.linkage, &case.given, true).unwrap();

@@ -19,6 +19,7 @@ use crate::kinematics::motion::{cross, dot};
 use crate::kinematics::sphere::{Direction, SphereLinkage, across};
 use crate::linkage::sphere::start;
 use looproot_calculus::rotation::matrix::{apply, transpose};
+use looproot_calculus::unit::Root;
 use rug::Rational;
 
 /// The longest polynomial, as of all polynomials with symbols.
@@ -63,23 +64,40 @@ pub struct SphereSymbolic {
     pub polynomial: Polynomial<Int>,
 }
 
-/// The symbols so far.
-#[derive(Default)]
-struct Symbols(Vec<SphereSymbol>);
+/// The symbols so far, and the names of those that are wanted: all if there are none.
+struct Symbols<'w>(Vec<SphereSymbol>, &'w [String]);
 
-impl Symbols {
-    /// Returns cosine and sine of an angle from numbers proportional to them, the first one exact, the second one up to a positive factor.
-    fn add(&mut self, name: String, meaning: String, [x, y]: [&Rational; 2], value: f64) -> [Symbolic; 2] {
+impl Symbols<'_> {
+    /// Returns cosine and sine of an angle from a number proportional to the cosine and the square of one proportional to the sine, with the
+    /// sign of the sine. An angle that is not wanted has its numbers, where they are rational; of the sides of couplers the cosine is needed.
+    fn add(&mut self, symbol: SphereSymbol, [x, y]: [&Rational; 2], is_coupler: bool) -> [Symbolic; 2] {
         let sign = |q: &Rational| Symbolic::constant(Rational::from(q.cmp0() as i32));
         if *x == 0 || *y == 0 {
             return [sign(x), sign(y)];
         }
-        self.0.push(SphereSymbol { name, meaning, value });
-        [0, 1].map(|k| Symbolic::variable(2 * self.0.len() + k))
+        let number = |q: Option<Rational>| q.map(Symbolic::constant);
+        let mut own = [None, None];
+        if !self.1.is_empty() && !self.1.contains(&symbol.name) {
+            let size = Rational::from(y.abs_ref());
+            let square = Rational::from(x * x) + &size;
+            let over = |q: Rational| Rational::sqrt(&(q / &square));
+            let cosine = over(Rational::from(x * x)).map(|c| if *x < 0 { -c } else { c });
+            let sine = over(size).map(|s| if *y < 0 { -s } else { s });
+            own = [number(cosine), number(sine)];
+        }
+        if own[0].is_none() || (own[1].is_none() && !is_coupler) {
+            self.0.push(symbol);
+        }
+        let last = self.0.len();
+        let [cosine, sine] = own;
+        [cosine.unwrap_or_else(|| Symbolic::variable(2 * last)), sine.unwrap_or_else(|| Symbolic::variable(2 * last + 1))]
     }
 
     /// Returns cosine and sine of the side of a body between two joints.
-    fn side(&mut self, linkage: &SphereLinkage, body: usize, [one, two]: [usize; 2]) -> [Symbolic; 2] {
+    fn side(&mut self, linkage: &SphereLinkage, four: &FourBar, side: usize) -> [Symbolic; 2] {
+        let [first, second, third, fourth] = four.joints;
+        let [one, two] = [[first, fourth], [first, second], [second, third], [fourth, third]][side];
+        let body = four.bodies[side];
         let (p, q) = (axis(linkage, one, body), axis(linkage, two, body));
         let normal = cross(p, q);
         let (cosine, square) = (dot(p, q), dot(&normal, &normal));
@@ -88,7 +106,7 @@ impl Symbols {
         let name = format!("{own}_{}_{}", names[0], names[1]);
         let meaning = format!("the side of {own} from {} to {}", names[0], names[1]);
         let value = nearest_f64(&square).sqrt().atan2(nearest_f64(&cosine));
-        self.add(name, meaning, [&cosine, &square], value)
+        self.add(SphereSymbol { name, meaning, value }, [&cosine, &square], side == 2)
     }
 }
 
@@ -116,13 +134,9 @@ fn turned([c, s]: &[Symbolic; 2], [x, y]: &[Symbolic; 2]) -> [Symbolic; 2] {
 }
 
 /// Returns the equation of a four-bar, `1 + t^2` and `1 + s^2` multiplied out.
-fn equation(linkage: &SphereLinkage, four: &FourBar, phi: &[Symbolic; 2], symbols: &mut Symbols) -> Symbolic {
-    let [first, second, third, fourth] = four.joints;
-    let [ground, crank, coupler, rocker] = four.bodies;
-    let [cos_g, sin_g] = symbols.side(linkage, ground, [first, fourth]);
-    let [cos_a, sin_a] = symbols.side(linkage, crank, [first, second]);
-    let [cos_b, _] = symbols.side(linkage, coupler, [second, third]);
-    let [cos_c, sin_c] = symbols.side(linkage, rocker, [fourth, third]);
+fn equation(linkage: &SphereLinkage, four: &FourBar, phi: &[Symbolic; 2], symbols: &mut Symbols<'_>) -> Symbolic {
+    let [[cos_g, sin_g], [cos_a, sin_a], [cos_b, _], [cos_c, sin_c]] =
+        [0, 1, 2, 3].map(|side| symbols.side(linkage, four, side));
     let psi = tangent(1);
     let ([one, two], both) = ([circle(0), circle(1)], circle(0).mul(&circle(1)));
     let product = |factors: &[&Symbolic]| factors.iter().fold(Symbolic::one(), |product, factor| product.mul(factor));
@@ -138,7 +152,7 @@ fn equation(linkage: &SphereLinkage, four: &FourBar, phi: &[Symbolic; 2], symbol
 }
 
 /// Returns the constant angle between the psi of a four-bar and the phi of the next one at the same joint.
-fn step(linkage: &SphereLinkage, [before, next]: [&FourBar; 2], symbols: &mut Symbols) -> [Symbolic; 2] {
+fn step(linkage: &SphereLinkage, [before, next]: [&FourBar; 2], symbols: &mut Symbols<'_>) -> [Symbolic; 2] {
     let joint = next.joints[0];
     let (ground, rocker) = (next.bodies[0], next.bodies[1]);
     let (at_ground, at_rocker) = (axis(linkage, joint, ground), axis(linkage, joint, rocker));
@@ -154,7 +168,8 @@ fn step(linkage: &SphereLinkage, [before, next]: [&FourBar; 2], symbols: &mut Sy
     let meaning = format!(
         "at {name} the angle from the rocker of one four-bar to the crank of the next, less that of the arcs of the ground"
     );
-    symbols.add(format!("turn_{name}"), meaning, [&cosine, &sine], value)
+    let part = Rational::from(sine.abs_ref()) * &sine * square;
+    symbols.add(SphereSymbol { name: format!("turn_{name}"), meaning, value }, [&cosine, &part], false)
 }
 
 /// Returns an end of the relation: the angle at a joint of the ground from a direction there to one of the moving body.
@@ -167,14 +182,23 @@ fn end(linkage: &SphereLinkage, joint: usize, [from, to]: [&Direction; 2]) -> Sp
     SphereEnd { joint, sign: if is_second { 1.0 } else { -1.0 }, offset }
 }
 
-/// Derives the relation of the angle of a joint at the ground to that of the last rocker behind it, with the sides of all bodies as symbols:
-/// those that are no right angles.
+/// Derives the relation of the angle of a joint at the ground to that of the last rocker behind it, with the sides of all bodies as symbols, or
+/// those of these names: those that are no right angles. Of a side that is not named cosine and sine are numbers where they are rational.
 ///
 /// # Errors
-/// [`Error::Unsupported`] if the crank of the joint belongs to no four-bar, and for more than 100,000 terms.
-pub fn sphere_with_symbols(linkage: &SphereLinkage, input: usize) -> Result<SphereSymbolic> {
+/// [`Error::Unsupported`] if the crank of the joint belongs to no four-bar, and for more than 100,000 terms; [`Error::Invalid`] for a
+/// name that no side has.
+pub fn sphere_with_symbols(linkage: &SphereLinkage, input: usize, wanted: &[String]) -> Result<SphereSymbolic> {
+    if let Some(known) = (!wanted.is_empty()).then(|| sphere_with_symbols(linkage, input, &[])).transpose()? {
+        let names: Vec<&str> = known.symbols.iter().map(|one| one.name.as_str()).collect();
+        if let Some(name) = wanted.iter().find(|name| !names.contains(&name.as_str())) {
+            let name: String = name.chars().take(40).collect();
+            let message = format!("found the symbol {name}, expected a given joint or some of {}", names.join(", "));
+            return Err(Error::Invalid(message));
+        }
+    }
     let fours = series(linkage, input)?;
-    let mut symbols = Symbols::default();
+    let mut symbols = Symbols(Vec::new(), wanted);
     let mut relation: Option<Symbolic> = None;
     for (k, four) in fours.iter().enumerate() {
         let phi = match k.checked_sub(1) {

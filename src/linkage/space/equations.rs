@@ -8,7 +8,7 @@
 //!
 //! The solutions of the system are the assemblies, one for one: real assemblies have real unknowns.
 
-use super::clusters::{Cluster, clusters, freedoms, open_joints};
+use super::clusters::{Cluster, clusters, freedoms, home, open_joints};
 use super::conditions::conditions;
 use crate::algebra::groebner::{Equation, MOST_VARIABLES};
 use crate::algebra::ring::Ring;
@@ -18,6 +18,23 @@ use crate::kinematics::space::{Axis, Known, SpaceGiven, SpaceLinkage, SpacePair}
 use crate::kinematics::sphere::is_parallel;
 use crate::linkage::sphere::combination;
 use rug::Rational;
+
+/// What an unknown stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Symbol {
+    /// The cosine of the angle of a joint.
+    Cosine(usize),
+    /// Its sine over the length of the axis.
+    Sine(usize),
+    /// The displacement of a joint over the length of its axis.
+    Shift(usize),
+    /// A coordinate (the last number) of a direction, the first or second, that is fixed in a body.
+    Direction(usize, usize, usize),
+    /// A coordinate of the origin of a body.
+    Position(usize, usize),
+    /// A coordinate of the axis of a joint.
+    Axis(usize, usize),
+}
 
 /// The equations, and what leads back from their solutions to the bodies.
 #[derive(Clone, Debug)]
@@ -30,6 +47,8 @@ pub struct System {
     pub equations: Vec<Equation>,
     /// The number of unknowns.
     pub unknowns: usize,
+    /// What every unknown stands for.
+    pub symbols: Vec<Symbol>,
     /// An upper bound for the degree of every place.
     degrees: Vec<u32>,
 }
@@ -116,7 +135,7 @@ impl System {
         }
         let places = (0..clusters.len()).map(|k| (k == 0).then(Motion::identity)).collect();
         let degrees = vec![0; clusters.len()];
-        let mut system = Self { clusters, places, equations: Vec::new(), unknowns: 0, degrees };
+        let mut system = Self { clusters, places, equations: Vec::new(), unknowns: 0, symbols: Vec::new(), degrees };
         let mut open = open_joints(linkage, given, &system.clusters);
         loop {
             let serial = open.iter().position(|(joint, of)| system.reaches(linkage, *joint, *of));
@@ -135,11 +154,12 @@ impl System {
         Ok(system)
     }
 
-    fn unknown(&mut self) -> Result<Equation> {
+    fn unknown(&mut self, symbol: Symbol) -> Result<Equation> {
         if self.unknowns == MOST_VARIABLES {
             return Err(Error::Unsupported(format!("a linkage in space with more than {MOST_VARIABLES} unknowns")));
         }
         self.unknowns += 1;
+        self.symbols.push(symbol);
         Ok(Equation::variable(self.unknowns - 1))
     }
 
@@ -148,8 +168,8 @@ impl System {
         *equation == number(&equation.evaluate(&origin))
     }
 
-    fn vector(&mut self) -> Result<Vector<Equation>> {
-        Ok([self.unknown()?, self.unknown()?, self.unknown()?])
+    fn vector(&mut self, symbol: impl Fn(usize) -> Symbol) -> Result<Vector<Equation>> {
+        Ok([self.unknown(symbol(0))?, self.unknown(symbol(1))?, self.unknown(symbol(2))?])
     }
 
     /// Whether a joint leads from a cluster that is placed to one that is not, by one variable.
@@ -165,17 +185,17 @@ impl System {
     }
 
     /// Places a cluster through a joint of one variable.
-    fn step(&mut self, linkage: &SpaceLinkage, joint: usize, of: [usize; 2]) -> Result<()> {
-        let joint = &linkage.joints[joint];
+    fn step(&mut self, linkage: &SpaceLinkage, number_of: usize, of: [usize; 2]) -> Result<()> {
+        let joint = &linkage.joints[number_of];
         let to = |v: &Vector<Rational>| Motion::translation(constant(v));
         let back = joint.at[1].each_ref().map(|c| Rational::from(-c));
         let middle = match &joint.pair {
             SpacePair::Prismatic(axis) => {
-                let way = self.unknown()?;
+                let way = self.unknown(Symbol::Shift(number_of))?;
                 Motion::translation(scaled(&constant(&axis.sphere.at[0]), &way)).then_after(&over(&axis.home))
             }
             SpacePair::Revolute(axis) => {
-                let (cos, sin) = (self.unknown()?, self.unknown()?);
+                let (cos, sin) = (self.unknown(Symbol::Cosine(number_of))?, self.unknown(Symbol::Sine(number_of))?);
                 let square = dot(&axis.sphere.at[0], &axis.sphere.at[0]);
                 // The sine is that of the angle over the length of the axis.
                 let circle = cos.mul(&cos).add(&sin.mul(&sin).mul(&number(&square))).sub(&Equation::one());
@@ -201,6 +221,13 @@ impl System {
                 Some(place.then_after(&ends[1]).then_after(&across.inverse()).then_after(&ends[0].inverse()));
         }
         Ok(())
+    }
+
+    /// The place of a body, in polynomials; `None` of a rod.
+    #[must_use]
+    pub fn place(&self, body: usize) -> Option<Motion<Equation>> {
+        let cluster = home(&self.clusters, body)?;
+        Some(self.places[cluster].as_ref()?.then_after(&over(&self.own(body))))
     }
 
     /// The point of a joint in a cluster.
@@ -252,12 +279,14 @@ impl System {
         // The rotation is of twice the degree of the vectors that it is made of.
         let highest = self.degrees.iter().copied().max().unwrap_or(0).max(1);
         self.degrees[k] = if is_constant { 0 } else { limited(2 * highest)? };
+        let body = self.clusters[k].bodies[0].0;
         while frame.len() < 2 {
+            let order = frame.len();
             let own = match frame.first() {
                 Some((own, _)) => across(own),
                 None => std::array::from_fn(|k| Rational::from(u8::from(k == 0))),
             };
-            frame.push((own, self.vector()?));
+            frame.push((own, self.vector(|axis| Symbol::Direction(body, order, axis))?));
         }
         let [(a, v), (b, w)] = [&frame[0], &frame[1]];
         for ((p, x), (q, y)) in [((a, v), (a, v)), ((b, w), (b, w)), ((a, v), (b, w))] {
@@ -274,7 +303,7 @@ impl System {
         let turned = Motion { rotation, translation: std::array::from_fn(|_| Equation::zero()) };
         let translation = match held.points.first() {
             Some((own, at)) => difference(at, &turned.rotate(&constant(own))),
-            None => self.vector()?,
+            None => self.vector(|axis| Symbol::Position(body, axis))?,
         };
         self.places[k] = Some(Motion { translation, ..turned });
         Ok(())

@@ -12,6 +12,7 @@ mod universal;
 mod values;
 
 pub use answer::{Coordinate, SpaceAnswer, SpaceGroup, SpaceMode, bodies, solve};
+pub use clusters::{clusters, groups};
 pub use conditions::conditions;
-pub use equations::System;
+pub use equations::{Symbol, System};
 pub use rates::{SpaceRates, rates};

@@ -7,7 +7,7 @@ use crate::algebra::number::nearest_f64;
 use crate::algebra::ring::Ring;
 use crate::algebra::sort;
 use crate::error::{Error, Result};
-use crate::kinematics::motion::{Vector, cross, dot};
+use crate::kinematics::motion::{Motion, Vector, cross, dot};
 use crate::kinematics::sphere::{SphereGiven, SphereLinkage};
 use crate::linkage::isotropic::middle;
 use crate::linkage::points::{EFFORT, Points};
@@ -169,7 +169,7 @@ fn assembled(
 }
 
 /// The rotation of a cluster from two of its axes.
-fn rotation(cluster: &Cluster, axes: [&Vector<Disc>; 2]) -> Matrix<Disc> {
+fn rotation<R: Ring>(cluster: &Cluster, axes: [&Vector<R>; 2]) -> Matrix<R> {
     let [p, q] = cluster.base.map(|place| &cluster.joints[place].1);
     let [v, w] = axes;
     let normal = cross(v, w);
@@ -180,11 +180,27 @@ fn rotation(cluster: &Cluster, axes: [&Vector<Disc>; 2]) -> Matrix<Disc> {
         std::array::from_fn(|k| {
             let parts = [&v[i], &w[i], &normal[i]];
             let terms = parts.iter().zip(&columns[k]).filter(|(_, c)| **c != 0);
-            terms.fold(Disc::zero(), |sum, (part, c)| {
-                sum.add(&part.mul(&Disc::from_rational(c).unwrap_or_else(Disc::zero)))
-            })
+            terms.fold(R::zero(), |sum, (part, c)| sum.add(&part.mul(&R::from_rational(c).unwrap_or_else(R::zero))))
         })
     })
+}
+
+/// Returns the rotations of all bodies against that which rests in the equations, from the axes of all joints.
+#[must_use]
+pub fn rotations<R: Ring>(system: &System, axes: &[Vector<R>]) -> Vec<(usize, Matrix<R>)> {
+    let exactly = |own: &Matrix<Rational>| {
+        own.each_ref().map(|row| row.each_ref().map(|c| R::from_rational(c).unwrap_or_else(R::zero)))
+    };
+    let mut places = Vec::new();
+    for (k, cluster) in system.clusters.iter().enumerate() {
+        let turn: Matrix<R> = if k == 0 {
+            exactly(&identity())
+        } else {
+            rotation(cluster, cluster.base.map(|place| &axes[cluster.joints[place].0]))
+        };
+        places.extend(cluster.bodies.iter().map(|(body, own)| (*body, product(&turn, &exactly(own)))));
+    }
+    places
 }
 
 fn mode(
@@ -199,23 +215,12 @@ fn mode(
     let mut bodies: Vec<Matrix<Coordinate>> =
         vec![std::array::from_fn(|_| std::array::from_fn(|_| zero())); linkage.bodies.len()];
     let mut radius = f64::EPSILON;
-    let exactly = |own: &Matrix<Rational>| {
-        own.each_ref().map(|row| row.each_ref().map(|c| Disc::from_rational(c).unwrap_or_else(Disc::zero)))
-    };
-    let mut places: Vec<(usize, Matrix<Disc>)> = Vec::with_capacity(linkage.bodies.len());
-    for (k, cluster) in system.clusters.iter().enumerate() {
-        let turn: Matrix<Disc> = if k == 0 {
-            std::array::from_fn(|i| std::array::from_fn(|j| if i == j { Disc::one() } else { Disc::zero() }))
-        } else {
-            let [first, second] = cluster.base.map(|place| &axes[cluster.joints[place].0]);
-            rotation(cluster, [first, second])
-        };
-        places.extend(cluster.bodies.iter().map(|(body, own)| (*body, product(&turn, &exactly(own)))));
-    }
+    let places = rotations(system, &axes);
     // From the axes of the body that rests in the equations to those of the ground.
     let ground = places.iter().find(|(body, _)| *body == linkage.ground).map(|(_, place)| transpose(place))?;
     for (body, place) in &places {
-        let place = if *body == linkage.ground { exactly(&identity()) } else { product(&ground, place) };
+        let is_ground = *body == linkage.ground;
+        let place = if is_ground { Motion::identity().rotation } else { product(&ground, place) };
         for (i, row) in place.iter().enumerate() {
             for (j, entry) in row.iter().enumerate() {
                 radius = radius.max(entry.radius().to_f64());

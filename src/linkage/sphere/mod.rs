@@ -9,7 +9,7 @@ mod dyads;
 mod equations;
 mod instant;
 
-pub use answer::{Coordinate, SphereAnswer, SphereMode, quaternion, solve};
+pub use answer::{Coordinate, SphereAnswer, SphereMode, quaternion, rotations, solve};
 pub use dyads::{Function, SphereDyad, SphereDyads, about, half_turn, start};
 pub use equations::{Cluster, System, combination};
 pub use instant::{Rates, rates};

@@ -11,12 +11,15 @@ use super::symbols;
 use super::wanted::{in_place, wanted};
 use looproot::internal::catalogue::entry::{Design, Entry};
 use looproot::internal::catalogue::{Any, Chains, Options, SpaceFile, load_solvable};
-use looproot::internal::derivation::{Derivation, Way, derive_by, derive_with_symbols, surface};
+use looproot::internal::derivation::{
+    Derivation, RingDerivation, RingSymbolic, Way, derive_by, derive_in_space, derive_in_space_with_symbols,
+    derive_with_symbols, surface,
+};
 use looproot::internal::error::Error;
 use looproot::internal::report::derivation::{json, paper, system, text, verdict};
 use looproot::internal::report::document::complete;
 use looproot::internal::report::json::kind;
-use looproot::internal::report::{self, surface as surfaces, symbolic, ways};
+use looproot::internal::report::{self, ring_derivation as ring, surface as surfaces, symbolic, ways};
 use looproot::internal::sweep::{EntryCase, SpaceCase, derive_any};
 use looproot_algebra::number::{Number, Quantity};
 use rug::Rational;
@@ -135,22 +138,72 @@ fn certify(options: &DeriveOptions, (entry, index): (&Entry, usize), derivation:
     Ok(())
 }
 
-/// Prints the cells of a linkage in space.
+/// Derives the closure polynomials of a linkage in space, or prints its cells.
 fn in_space(options: &DeriveOptions, mechanism: &str, file: &SpaceFile) -> Result<Exit, Fault> {
-    let Some(names) = &options.discriminant else {
-        let message = "closure polynomials of linkages in space are not derived yet, expected --discriminant";
-        return Err(Error::Unsupported(message.to_owned()).into());
-    };
     let file = &*super::space::posed(options.asked.input.as_deref(), file)?;
     let index = super::space::wanted(options.asked.input.as_deref(), file)?.start;
-    let asked = Asked {
-        subject: SpaceCase::new(file, index),
-        title: &file.heading.title,
-        reading: &file.reading,
-        place: &|error| error.at(mechanism, file.cases[index].line),
-        document: &|value| format!("{}\n", report::space::completed(file, index + 1, value)),
+    let place = |error: Error| error.at(mechanism, file.cases[index].line);
+    if let Some(names) = &options.discriminant {
+        let asked = Asked {
+            subject: SpaceCase::new(file, index),
+            title: &file.heading.title,
+            reading: &file.reading,
+            place: &place,
+            document: &|value| format!("{}\n", report::space::completed(file, index + 1, value)),
+        };
+        return discriminant::run(options, mechanism, &asked, names);
+    }
+    super::linkage_derive::refuse(options)?;
+    if options.trace.is_some() {
+        let message = "found --trace for a linkage in space, whose curves are not derived yet";
+        return Err(Error::Unsupported(message.to_owned()).into());
+    }
+    let named = ring::Named::in_space(file, index + 1);
+    if let Some(list) = &options.symbolic {
+        let names = symbols::names(list);
+        let derived = symbols::watched(options, |watch| derive_in_space_with_symbols(file, index, &names, watch));
+        let Some(found) = derived.map_err(place)? else { return Ok(Exit::Interrupted) };
+        return with_symbols(options, mechanism, &named, &found);
+    }
+    let case = &file.cases[index];
+    let derivation = derive_in_space(&file.linkage, &case.given).map_err(place)?;
+    let written = if options.json {
+        format!("{}\n", ring::json(&named, &derivation))
+    } else if options.quiet {
+        ring::verdict(&named, &derivation) + "\n"
+    } else {
+        ring::text(&named, &derivation)
     };
-    discriminant::run(options, mechanism, &asked, names)
+    Output::write(&options.output, mechanism, &written)?;
+    Ok(exit_of_ring(&derivation, file.exact && case.exact))
+}
+
+/// Writes a closure polynomial with symbols of a linkage in space or on the sphere: compared at values drawn at random, it has no proof.
+pub fn with_symbols(
+    options: &DeriveOptions,
+    mechanism: &str,
+    named: &ring::Named<'_>,
+    found: &RingSymbolic,
+) -> Result<Exit, Fault> {
+    let written = if options.json {
+        format!("{}\n", ring::symbolic_json(named, found))
+    } else if options.quiet {
+        ring::symbolic_verdict(named, found) + "\n"
+    } else {
+        ring::symbolic_text(named, found)
+    };
+    Output::write(&options.output, mechanism, &written)?;
+    Ok(Exit::NotProved)
+}
+
+/// Returns the exit code of a linkage in space or on the sphere whose numbers are exact or not.
+pub fn exit_of_ring(derivation: &RingDerivation, is_exact: bool) -> Exit {
+    match derivation.polynomials.first() {
+        Some(best) if best.separates() && is_exact => {
+            if best.real_roots() > 0 { Exit::Complete } else { Exit::Unreachable }
+        }
+        _ => Exit::NotProved,
+    }
 }
 
 fn without_certificate() -> Fault {

@@ -9,11 +9,13 @@ use super::space_instant::on_sphere;
 use super::sweep::{judged, range};
 use super::symbols;
 use looproot::internal::catalogue::SphereFile;
-use looproot::internal::derivation::{sphere_trace, sphere_with_symbols, transfer};
+use looproot::internal::derivation::{
+    derive_on_sphere, derive_on_sphere_with_symbols, sphere_trace, sphere_with_symbols, transfer,
+};
 use looproot::internal::error::Error;
 use looproot::internal::kinematics::closed_loop::Variable;
 use looproot::internal::linkage::sphere::solve;
-use looproot::internal::report::axodes;
+use looproot::internal::report::{axodes, ring_derivation as ring};
 use looproot::internal::report::ratio::Ratio;
 use looproot::internal::report::sphere as report;
 use looproot::internal::report::sphere_sweep as sweeps;
@@ -87,17 +89,9 @@ pub fn run(options: &SolveOptions, file: &SphereFile, output: Output) -> Result<
 /// Derives the transfer function of the joint that is given, or the curve of a point.
 pub fn derive(options: &DeriveOptions, mechanism: &str, file: &SphereFile) -> Result<Exit, Fault> {
     super::linkage_derive::refuse(options)?;
-    if let Some(list) = &options.symbolic {
-        if options.trace.is_some() {
-            let message = "found --symbolic with --trace of a linkage on the sphere, whose curves have no symbols yet";
-            return Err(Error::Unsupported(message.to_owned()).into());
-        }
-        if !symbols::names(list).is_empty() {
-            let message = format!(
-                "found --symbolic={list} of a linkage on the sphere, expected --symbolic alone: all sides are symbols"
-            );
-            return Err(Error::Invalid(message).into());
-        }
+    if options.symbolic.is_some() && options.trace.is_some() {
+        let message = "found --symbolic with --trace of a linkage on the sphere, whose curves have no symbols yet";
+        return Err(Error::Unsupported(message.to_owned()).into());
     }
     let file = &*posed(options.asked.input.as_deref(), file)?;
     let index = wanted(options.asked.input.as_deref(), file)?.start;
@@ -113,47 +107,93 @@ pub fn derive(options: &DeriveOptions, mechanism: &str, file: &SphereFile) -> Re
         };
         return discriminant::run(options, mechanism, &asked, names);
     }
-    let written = if let Some(asked) = &options.trace {
+    let names = options.symbolic.as_ref().map(|list| symbols::names(list)).unwrap_or_default();
+    let is_given = |name: &String| {
+        let is_named = |joint: usize| file.linkage.joints[joint].name == *name;
+        case.given.iter().any(|one| one.joint.is_some_and(is_named))
+    };
+    if names.iter().any(is_given) {
+        let derived = symbols::watched(options, |watch| derive_on_sphere_with_symbols(file, index, &names, watch));
+        let Some(found) = derived.map_err(in_place)? else { return Ok(Exit::Interrupted) };
+        return super::derive::with_symbols(options, mechanism, &ring::Named::on_sphere(file, index + 1), &found);
+    }
+    let (written, exit) = if let Some(asked) = &options.trace {
         let (body, point, place) = file.point(asked)?;
         let curve = sphere_trace(&file.linkage, body, &place).map_err(in_place)?;
-        if options.json {
+        let written = if options.json {
             format!("{}\n", report::curve_json(file, index + 1, &file.linkage.bodies[body].name, point, &curve))
         } else if options.quiet {
             report::curve_verdict(asked, &curve) + "\n"
         } else {
             report::curve_text(file, asked, &curve)
-        }
+        };
+        (written, None)
     } else {
-        relation(options, file, index).map_err(in_place)?
+        relation(options, file, index, &names).map_err(in_place)?
     };
     Output::write(&options.output, mechanism, &written)?;
-    Ok(if file.exact { Exit::Complete } else { Exit::NotProved })
+    Ok(exit.unwrap_or(if file.exact { Exit::Complete } else { Exit::NotProved }))
 }
 
-/// Writes the transfer function of the joint that is given, with numbers or with symbols.
-fn relation(options: &DeriveOptions, file: &SphereFile, index: usize) -> Result<String, Error> {
-    let given = file.cases[index].given.iter().find_map(|given| given.joint);
+/// Writes the transfer function of the joint that is given, with numbers or with symbols, and the closure polynomial of the case with the exit
+/// code that this has.
+fn relation(
+    options: &DeriveOptions,
+    file: &SphereFile,
+    index: usize,
+    names: &[String],
+) -> Result<(String, Option<Exit>), Error> {
+    let case = &file.cases[index];
+    let given = case.given.iter().find_map(|given| given.joint);
     let ground = file.linkage.joints.iter().position(|joint| joint.of.contains(&file.linkage.ground));
     let input =
         given.or(ground).ok_or_else(|| Error::Invalid("found no joint at the ground, expected one".to_owned()))?;
     if options.symbolic.is_some() {
-        let found = sphere_with_symbols(&file.linkage, input)?;
-        return Ok(if options.json {
+        let found = sphere_with_symbols(&file.linkage, input, names)?;
+        let written = if options.json {
             format!("{}\n", report::symbolic_json(file, index + 1, &found))
         } else if options.quiet {
             report::symbolic_verdict(&found) + "\n"
         } else {
             report::symbolic_text(file, &found)
-        });
+        };
+        return Ok((written, None));
     }
-    let found = transfer(&file.linkage, input)?;
-    Ok(if options.json {
-        format!("{}\n", report::transfer_json(file, index + 1, &found))
+    let transferred = transfer(&file.linkage, input);
+    let named = ring::Named::on_sphere(file, index + 1);
+    // Without a given joint there is no closure polynomial, but a curve of assemblies.
+    let derived = if case.given.is_empty() { None } else { derive_on_sphere(&file.linkage, &case.given).ok() };
+    let Some(derived) = derived else {
+        let found = transferred?;
+        let written = if options.json {
+            format!("{}\n", report::transfer_json(file, index + 1, &found))
+        } else if options.quiet {
+            report::transfer_verdict(file, &found) + "\n"
+        } else {
+            report::transfer_text(file, &found)
+        };
+        return Ok((written, None));
+    };
+    let found = transferred.ok();
+    let verdict = |own: String| match &found {
+        Some(found) => format!("{own}; {}", report::transfer_verdict(file, found)),
+        None => own,
+    };
+    let written = if options.json {
+        let mut document = ring::json(&named, &derived);
+        if let Some(found) = &found {
+            document["transfer"] = report::transfer_json(file, index + 1, found)["transfer"].take();
+            document["verdict"] = verdict(ring::verdict(&named, &derived)).into();
+        }
+        format!("{document}\n")
     } else if options.quiet {
-        report::transfer_verdict(file, &found) + "\n"
+        verdict(ring::verdict(&named, &derived)) + "\n"
     } else {
-        report::transfer_text(file, &found)
-    })
+        // Its first line is the title, which stands above.
+        let relation = found.map_or_else(String::new, |found| report::transfer_text(file, &found));
+        ring::text(&named, &derived) + relation.find('\n').map_or("", |end| &relation[end..])
+    };
+    Ok((written, Some(super::derive::exit_of_ring(&derived, file.exact && case.exact))))
 }
 
 /// Sweeps a joint through its range and prints the branches.

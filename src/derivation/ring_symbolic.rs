@@ -1,0 +1,269 @@
+//! Closure polynomials of linkages in space and on the sphere with numbers of the file as symbols, interpolated from those at values.
+
+use super::by_ring::{Part, Unknown, derive_in_space, derive_on_sphere, part_in_space, part_on_sphere};
+use super::coordinate_ring::{CoordinateRing, Solutions};
+use super::equation::primitive;
+use super::interpolation::{COMPARED, Family, Source, Values, Watch};
+use crate::algebra::int::Int;
+use crate::algebra::number::{Angle, HalfTangent, Number};
+use crate::algebra::polynomial::Polynomial;
+use crate::catalogue::entry::InputValue;
+use crate::catalogue::{SpaceFile, SphereFile, sphere::turned};
+use crate::error::{Error, Result};
+use crate::kinematics::motion::Vector;
+use crate::kinematics::space::{Known, SpacePair};
+use crate::linkage::space::{bodies, clusters, groups};
+use rug::{Integer, Rational};
+
+/// Maximum number of symbols: each multiplies the number of bases by four or more.
+const MOST_SYMBOLS: usize = 3;
+/// Products of words that a basis at one value may take, about a second: some dozens of them are needed.
+const EFFORT: u64 = 300_000_000;
+
+/// A closure polynomial with symbols.
+#[derive(Clone, Debug)]
+pub struct RingSymbolic {
+    /// What variable 0 is.
+    pub unknown: Unknown,
+    /// The names of the symbols, the variables from 1, as they were asked for: `crank.B.x`, `rod.length`, or a given joint.
+    pub symbols: Vec<String>,
+    /// The polynomial.
+    pub polynomial: Polynomial<Int>,
+    /// Number of other values, drawn at random, at which it equals the polynomial that is derived from numbers.
+    pub compared: usize,
+}
+
+impl RingSymbolic {
+    /// Returns the coefficients of the powers of the unknown, polynomials in the symbols.
+    #[must_use]
+    pub fn coefficients(&self) -> Vec<Polynomial<Int>> {
+        self.polynomial.coefficients_in(0)
+    }
+}
+
+/// A number of a linkage in space that is a symbol.
+#[derive(Clone, Copy)]
+enum Parameter {
+    /// A coordinate of a point of a body: body, point, axis.
+    Coordinate(usize, usize, usize),
+    /// The length of a rod or of the rods of a parallelogram.
+    Length(usize),
+    /// The given value of a joint.
+    Input(usize),
+}
+
+/// The closure polynomials at values of the symbols.
+struct Rings<'a> {
+    part: &'a (dyn Fn(&[Rational]) -> Option<Part> + Sync),
+    unknown: Unknown,
+    degree: usize,
+}
+
+impl Rings<'_> {
+    fn at(&self, values: &[Rational]) -> Option<(usize, Vec<Integer>)> {
+        let part = (self.part)(values)?;
+        let (_, function) = part.functions.iter().find(|(unknown, _)| *unknown == self.unknown)?;
+        let Solutions::Finite(ring) = CoordinateRing::of(part.unknowns, &part.equations, EFFORT)? else { return None };
+        let (polynomial, _) = ring.values(function)?;
+        Some((ring.dimension(), polynomial.coefficients().to_vec()))
+    }
+}
+
+impl Source for Rings<'_> {
+    fn coefficients(&self, values: &[Rational]) -> Option<Vec<Integer>> {
+        let (degree, mut list) = self.at(values)?;
+        list.resize(self.degree + 1, Integer::new());
+        (degree == self.degree).then_some(list)
+    }
+}
+
+fn interpolated(
+    part: &(dyn Fn(&[Rational]) -> Option<Part> + Sync),
+    unknown: Unknown,
+    symbols: &[String],
+    watch: &Watch<'_>,
+) -> Result<RingSymbolic> {
+    let none = || {
+        let message = "with these symbols the equations have no solutions, infinitely many, or take too much work";
+        Error::Unsupported(message.to_owned())
+    };
+    let mut source = Rings { part, unknown, degree: 0 };
+    let (degree, _) = source.at(&Values::Small.start(symbols.len())).ok_or_else(none)?;
+    source.degree = degree;
+    let family = Family::new(&source, watch, Values::Small, symbols.to_vec(), degree + 1);
+    let exponent = |power: usize| u32::try_from(power).unwrap_or(u32::MAX);
+    let interpolated = family.interpolated()?;
+    let terms = interpolated.terms().map(|(power, others, c)| {
+        (std::iter::once(exponent(power)).chain(others).collect::<Vec<u32>>(), c.clone())
+    });
+    let found = primitive(&Polynomial::from_terms(terms));
+    family.compare(&found, 1, |coefficients| {
+        let terms = coefficients.iter().enumerate();
+        Polynomial::from_terms(terms.map(|(power, c)| (vec![exponent(power)], Rational::from(c))))
+    })?;
+    let polynomial = found.primitive().0;
+    Ok(RingSymbolic { unknown, symbols: symbols.to_vec(), polynomial, compared: COMPARED })
+}
+
+/// Checks the names of symbols.
+fn checked(names: &[String], known: &str) -> Result<()> {
+    if let Some(twice) = names.iter().enumerate().find(|(k, name)| names[..*k].contains(name)) {
+        return Err(Error::Invalid(format!("found the symbol {} twice, expected each name once", twice.1)));
+    }
+    if names.is_empty() || names.len() > MOST_SYMBOLS {
+        let message = format!("found {} symbols, expected one to {MOST_SYMBOLS}: {known}", names.len());
+        return Err(Error::Unsupported(message));
+    }
+    Ok(())
+}
+
+fn unknown_symbol(name: &str, known: &str) -> Error {
+    let name: String = name.chars().take(40).collect();
+    Error::Invalid(format!("found the symbol {name}, expected {known}"))
+}
+
+const IN_SPACE: &str = "--symbolic=NAMES of coordinates of points as crank.B.x, of lengths as rod.length, and of given joints";
+
+fn parameter(file: &SpaceFile, case: usize, name: &str) -> Result<Parameter> {
+    let linkage = &file.linkage;
+    let joint = |name: &str| linkage.joints.iter().position(|joint| joint.name == name);
+    let none = || unknown_symbol(name, IN_SPACE);
+    match name.split('.').collect::<Vec<&str>>()[..] {
+        [own] => {
+            let joint = joint(own).ok_or_else(none)?;
+            let is_given = file.cases[case].given.iter().any(|one| one.joint == Some(joint));
+            if is_given { Ok(Parameter::Input(joint)) } else { Err(none()) }
+        }
+        [own, "length"] => {
+            let joint = joint(own).ok_or_else(none)?;
+            let has_length = matches!(linkage.joints[joint].pair, SpacePair::Rod(_) | SpacePair::Parallelogram(..));
+            if has_length { Ok(Parameter::Length(joint)) } else { Err(none()) }
+        }
+        [own, point, axis] => {
+            let body = linkage.bodies.iter().position(|body| body.name == own).ok_or_else(none)?;
+            let points = &linkage.bodies[body].points;
+            let point = points.iter().position(|(name, _)| name == point).ok_or_else(none)?;
+            let axis = ["x", "y", "z"].iter().position(|own| *own == axis).ok_or_else(none)?;
+            if points.iter().enumerate().any(|(k, (_, at))| k != point && *at == points[point].1) {
+                let message = format!("{name}, as another point of the body is at the same place");
+                return Err(Error::Unsupported(message));
+            }
+            Ok(Parameter::Coordinate(body, point, axis))
+        }
+        _ => Err(none()),
+    }
+}
+
+/// Replaces a coordinate of a point, in the joints that stand there and in what is given of them.
+fn put(file: &mut SpaceFile, (body, point, axis): (usize, usize, usize), value: &Rational) {
+    let place = &mut file.linkage.bodies[body].points[point].1;
+    let before = place.clone();
+    place[axis].clone_from(value);
+    let after = place.clone();
+    let change: Vector<Rational> = std::array::from_fn(|k| Rational::from(&after[k] - &before[k]));
+    for (number, joint) in file.linkage.joints.iter_mut().enumerate() {
+        for side in 0..2 {
+            if joint.of[side] != body || joint.at[side] != before {
+                continue;
+            }
+            joint.at[side].clone_from(&after);
+            for one in file.cases[0].given.iter_mut().filter(|one| one.joint == Some(number)) {
+                let Known::Motion(known) = &mut one.known else { continue };
+                // The point of the second body lies where that of the first one is, moved along the axis.
+                let moved = if side == 0 { change.clone() } else { known.rotate(&change).map(|c| -c) };
+                known.translation.iter_mut().zip(&moved).for_each(|(c, change)| *c += change);
+            }
+        }
+    }
+}
+
+/// Returns the file with values in place of the symbols; `None` where one is no exact value of its joint.
+fn with_values(file: &SpaceFile, case: usize, parameters: &[Parameter], values: &[Rational]) -> Option<SpaceFile> {
+    let mut own = SpaceFile { cases: vec![file.cases[case].clone()], ..file.clone() };
+    // Whether the values are exact says the case in which nothing else was rounded.
+    own.cases[0].exact = true;
+    let mut inputs = Vec::new();
+    for (parameter, value) in parameters.iter().zip(values) {
+        match parameter {
+            Parameter::Coordinate(body, point, axis) => put(&mut own, (*body, *point, *axis), value),
+            Parameter::Length(joint) => match &mut own.linkage.joints[*joint].pair {
+                SpacePair::Rod(square) | SpacePair::Parallelogram(_, square) => *square = Rational::from(value * value),
+                _ => return None,
+            },
+            Parameter::Input(joint) => {
+                let joint = &file.linkage.joints[*joint];
+                let input = if joint.is_distance()? {
+                    InputValue::Distance(Number::exact(value.clone()))
+                } else {
+                    InputValue::Angle(Angle::from_half_tangent(HalfTangent::Finite(value.clone())))
+                };
+                inputs.push((joint.name.clone(), input));
+            }
+        }
+    }
+    let changed = own.case_at(&inputs).ok().filter(|case| case.exact)?;
+    own.cases[0] = changed;
+    Some(own)
+}
+
+/// Derives the closure polynomial of the last group of a linkage in space with coordinates of points, lengths, and given values (half-angle
+/// tangents, metres) as symbols. It is compared at values drawn at random, and has no proof.
+///
+/// # Errors
+/// As [`derive_in_space`]; for unknown symbols and more than three; where the values do not determine the polynomial, and where it is
+/// ended.
+pub fn derive_in_space_with_symbols(
+    file: &SpaceFile,
+    case: usize,
+    names: &[String],
+    watch: &Watch<'_>,
+) -> Result<RingSymbolic> {
+    checked(names, IN_SPACE)?;
+    let parameters = names.iter().map(|name| parameter(file, case, name)).collect::<Result<Vec<_>>>()?;
+    let base = derive_in_space(&file.linkage, &file.cases[case].given)?;
+    let unknown = base.polynomials.first().map(|best| best.unknown);
+    let unknown = unknown.ok_or_else(|| Error::Unsupported("a linkage without closure polynomial".to_owned()))?;
+    let part = |values: &[Rational]| {
+        let own = with_values(file, case, &parameters, values)?;
+        let (linkage, given) = (&own.linkage, &own.cases[0].given);
+        let list = clusters(linkage, given, &bodies(linkage)).ok()?;
+        let (group, held) = groups(linkage, given, &list).pop()?;
+        part_in_space(linkage, given, &group.bodies, &held).ok()
+    };
+    interpolated(&part, unknown, names, watch)
+}
+
+/// Derives the closure polynomial of a linkage on the sphere with half-angle tangents of given joints as symbols, compared at values
+/// drawn at random.
+///
+/// # Errors
+/// As [`derive_on_sphere`] and [`derive_in_space_with_symbols`].
+pub fn derive_on_sphere_with_symbols(
+    file: &SphereFile,
+    case: usize,
+    names: &[String],
+    watch: &Watch<'_>,
+) -> Result<RingSymbolic> {
+    let (linkage, given) = (&file.linkage, &file.cases[case].given);
+    let known = "--symbolic=NAMES of given joints, or of sides as --symbolic alone names them";
+    checked(names, known)?;
+    let place = |name: &String| {
+        let is_named = |joint: usize| linkage.joints[joint].name == *name;
+        given.iter().position(|one| one.joint.is_some_and(is_named)).ok_or_else(|| unknown_symbol(name, known))
+    };
+    let places = names.iter().map(place).collect::<Result<Vec<usize>>>()?;
+    let base = derive_on_sphere(linkage, given)?;
+    let unknown = base.polynomials.first().map(|best| best.unknown);
+    let unknown = unknown.ok_or_else(|| Error::Unsupported("a linkage without closure polynomial".to_owned()))?;
+    let part = |values: &[Rational]| {
+        let mut given = given.clone();
+        for (place, value) in places.iter().zip(values) {
+            let joint = &linkage.joints[given[*place].joint?];
+            let angle = Angle::from_half_tangent(HalfTangent::Finite(value.clone()));
+            let (rotation, exact) = turned(joint, &angle);
+            given[*place].rotation = Some(rotation).filter(|_| exact)?;
+        }
+        part_on_sphere(linkage, &given).ok()
+    };
+    interpolated(&part, unknown, names, watch)
+}
