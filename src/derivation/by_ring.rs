@@ -52,6 +52,22 @@ pub enum Unknown {
         /// 0, 1 or 2.
         axis: usize,
     },
+    /// An entry of the rotation matrix of a body against the same.
+    Rotation {
+        /// The body.
+        body: usize,
+        /// Its row and column, from 0.
+        at: [usize; 2],
+    },
+    /// A coordinate of the axis of a joint on the sphere, in those of the body that rests in the equations.
+    Axis {
+        /// The joint.
+        joint: usize,
+        /// 0, 1 or 2.
+        axis: usize,
+        /// The body.
+        rest: usize,
+    },
 }
 
 /// The closure polynomial of a group.
@@ -65,8 +81,10 @@ pub struct RingPolynomial {
     pub coefficients: Univariate<Integer>,
     /// The number of roots at the angle pi.
     pub at_pi: usize,
-    /// The number of assemblies of the group and those on which it stands, with multiplicity: that of the roots.
+    /// The number of assemblies of the group and those on which it stands, with multiplicity.
     pub assemblies: usize,
+    /// The number of assemblies for every root: they are told apart by other unknowns.
+    pub shared: usize,
     /// The number of distinct assemblies; `None` where it is not known.
     pub distinct: Option<usize>,
     /// The number of unknowns of its equations.
@@ -84,6 +102,25 @@ impl RingPolynomial {
     #[must_use]
     pub fn separates(&self) -> bool {
         self.distinct == Some(self.values())
+    }
+
+    /// Returns the number of roots with multiplicity.
+    #[must_use]
+    pub fn roots(&self) -> usize {
+        self.coefficients.degree().unwrap_or(0) + self.at_pi
+    }
+
+    /// Takes the root of the highest order that the polynomial has.
+    fn reduced(mut self) -> Self {
+        let parts = self.coefficients.square_free_decomposition();
+        let order = parts.iter().fold(self.at_pi, |order, (_, k)| gcd(order, *k));
+        if order > 1 {
+            let power = |(part, k): &(Univariate<Integer>, usize)| vec![part.clone(); k / order];
+            let factors = parts.iter().flat_map(power);
+            self.coefficients = factors.fold(Univariate::one(), |all, part| all.mul(&part)).primitive_part();
+            (self.at_pi, self.shared) = (self.at_pi / order, order);
+        }
+        self
     }
 
     /// Returns the number of distinct real roots, the angle pi counted.
@@ -136,6 +173,7 @@ impl Part {
                 coefficients,
                 at_pi,
                 assemblies,
+                shared: 1,
                 distinct: Some(assemblies),
                 unknowns: self.unknowns,
             };
@@ -150,8 +188,13 @@ impl Part {
                 best = Some(found);
             }
         }
+        let best = best.map(RingPolynomial::reduced);
         best.ok_or_else(|| "no joint and no place of it is an unknown with rational equations".to_owned())
     }
+}
+
+fn gcd(a: usize, b: usize) -> usize {
+    if b == 0 { a } else { gcd(b, a % b) }
 }
 
 fn number(q: &Rational) -> Equation {
@@ -242,6 +285,10 @@ pub(super) fn part_in_space(
         let Some(place) = system.place(*body) else { continue };
         let coordinates = place.translation.into_iter().enumerate().filter(|(_, c)| c.degree() > 0);
         functions.extend(coordinates.map(|(axis, c)| (Unknown::Position { body: *body, axis }, Function::Plain(c))));
+        let entries = place.rotation.into_iter().enumerate();
+        let entries = entries.flat_map(|(i, row)| row.into_iter().enumerate().map(move |(j, c)| ([i, j], c)));
+        let entries = entries.filter(|(_, c)| (1..=HIGHEST).contains(&c.degree()));
+        functions.extend(entries.map(|(at, c)| (Unknown::Rotation { body: *body, at }, Function::Plain(c))));
     }
     Ok(Part { unknowns: system.unknowns, equations: system.equations, symbols: system.symbols, functions })
 }
@@ -267,7 +314,13 @@ pub(super) fn part_on_sphere(linkage: &SphereLinkage, given: &[SphereGiven]) -> 
         let (function, over) = half_tangent_between(own, [a, b])?;
         Some((Unknown::HalfTangent { joint, over }, function))
     };
-    let functions = joints.into_iter().filter_map(function).collect();
+    let mut functions: Vec<(Unknown, Function)> = joints.into_iter().filter_map(function).collect();
+    let rest = system.clusters.first().and_then(|cluster| cluster.bodies.first()).map_or(0, |(body, _)| *body);
+    let axis = |(unknown, symbol): (usize, &Symbol)| {
+        let Symbol::Axis(joint, axis) = *symbol else { return None };
+        Some((Unknown::Axis { joint, axis, rest }, Function::Plain(Equation::variable(unknown))))
+    };
+    functions.extend(symbols.iter().enumerate().filter_map(axis));
     Ok(Part { unknowns: system.unknowns, equations: system.equations, symbols, functions })
 }
 
@@ -301,6 +354,10 @@ fn derivation(parts: Vec<Result<Part>>) -> Result<RingDerivation> {
 /// # Errors
 /// As [`space::solve`], and where no group has a polynomial.
 pub fn derive_in_space(linkage: &SpaceLinkage, given: &[SpaceGiven]) -> Result<RingDerivation> {
+    if linkage.joints.iter().all(|joint| matches!(joint.pair, SpacePair::UniversalLeg(_))) {
+        let message = "closure polynomials of plates on UPU legs are not derived: their poses are known modulo a prime and one by one";
+        return Err(Error::Unsupported(message.to_owned()));
+    }
     let list = clusters(linkage, given, &bodies(linkage))?;
     let parts = groups(linkage, given, &list);
     if let [(group, held)] = parts.as_slice() {

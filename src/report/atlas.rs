@@ -2,12 +2,15 @@
 //! a file that is there is that text.
 
 use super::linkage_derivation::tangent;
+use super::ring_derivation::{self, Named};
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::text::{Format, Names};
 use crate::catalogue::entry::{Design, Entry};
-use crate::catalogue::{LinkageFile, SphereFile};
+use crate::catalogue::{Any, LinkageFile, SpaceFile, SphereFile};
 use crate::claims::{Finding, Sort};
-use crate::derivation::{derive_linkage, platform_equations, transfer};
+use crate::derivation::{
+    RingDerivation, derive_in_space, derive_linkage, derive_on_sphere, platform_equations, transfer,
+};
 use crate::error::{Error, Result};
 use crate::sweep::derive_any;
 use rug::Rational;
@@ -19,6 +22,11 @@ const TWO_PAGES: usize = 8000;
 /// As much of a line is shown.
 const LONGEST_LINE: usize = 60;
 
+/// The second line of a page.
+const PAGE: &str = "# Closure equations (= 0) of the first case, written by looproot derive --bless\n";
+/// The third line of a page about rounded numbers.
+const ROUNDED: &str = "# Numbers without rational value or half-angle tangent are replaced by rationals nearby\n";
+
 /// The text for an entry's first case; `None` where the equations alone are longer than two pages.
 ///
 /// Equations are equal to 0, with integer coefficients without common factor, the first one positive, in a fixed order.
@@ -29,10 +37,9 @@ const LONGEST_LINE: usize = 60;
 pub fn atlas(entry: &Entry) -> Result<Option<String>> {
     let case = entry.cases.first().ok_or_else(|| Error::Invalid("a file without a case".to_owned()))?;
     let line = |polynomial: &Polynomial<Rational>, names: &Names| Format::Text.polynomial(polynomial, names);
-    let mut text =
-        format!("# {}\n# Closure equations (= 0) of the first case, written by looproot derive --bless\n", entry.title);
+    let mut text = format!("# {}\n{PAGE}", entry.title);
     if entry.rounded {
-        text.push_str("# Numbers without rational value or half-angle tangent are replaced by rationals nearby\n");
+        text.push_str(ROUNDED);
     }
     let (equations, names, polynomial) = if let Design::Platform(geometry) = &entry.design {
         let (names, equations) = platform_equations(geometry, case)?;
@@ -57,6 +64,37 @@ pub fn atlas(entry: &Entry) -> Result<Option<String>> {
         if text.len() + last.len() <= TWO_PAGES {
             text.push_str(&last);
         }
+    }
+    Ok(Some(text))
+}
+
+/// As [`atlas`], of a linkage in space or on the sphere too.
+///
+/// # Errors
+/// As [`atlas`], and for linkages in the plane and files of other kinds.
+pub fn page(any: &Any) -> Result<Option<String>> {
+    let (heading, is_rounded, (equations, polynomial)) = match any {
+        Any::Entry(entry) => return atlas(entry),
+        Any::Space(file) if !file.cases.is_empty() => {
+            let found = derive_in_space(&file.linkage, &file.cases[0].given)?;
+            (&file.heading, !(file.exact && file.cases[0].exact), ring_derivation::page(&Named::in_space(file, 1), &found))
+        }
+        Any::Sphere(file) if file.cases.first().is_some_and(|case| !case.given.is_empty()) => {
+            let found = derive_on_sphere(&file.linkage, &file.cases[0].given)?;
+            (&file.heading, !(file.exact && file.cases[0].exact), ring_derivation::page(&Named::on_sphere(file, 1), &found))
+        }
+        _ => return Err(Error::Unsupported("a page of equations of a file of this kind".to_owned())),
+    };
+    let mut text = format!("# {}\n{PAGE}", heading.title);
+    if is_rounded {
+        text.push_str(ROUNDED);
+    }
+    text.push_str(&equations);
+    if text.len() > TWO_PAGES {
+        return Ok(None);
+    }
+    if let Some(last) = polynomial.filter(|last| !is_rounded && text.len() + last.len() <= TWO_PAGES) {
+        text.push_str(&last);
     }
     Ok(Some(text))
 }
@@ -112,8 +150,7 @@ fn reason(error: &Error) -> String {
 /// beside it.
 #[must_use]
 pub fn row(entry: &Entry, name: &str, has_page: bool) -> String {
-    let page = if has_page { format!("[{name}.eqs]({name}.eqs)") } else { "`derive`".to_owned() };
-    row_of(name, &entry.title, &page, || {
+    row_of(name, &entry.title, &linked(name, has_page), || {
         let case = entry.cases.first().ok_or("no case")?;
         let derivation = derive_any(entry, case).map_err(|error| reason(&error))?;
         let none = || derivation.without.clone().unwrap_or_else(|| "no closure polynomial".to_owned());
@@ -143,12 +180,44 @@ pub fn linkage_row(file: &LinkageFile, name: &str) -> String {
     })
 }
 
-/// The row of a linkage on the sphere: the transfer function, a polynomial in the tangents of two half angles.
+/// The columns of the closure polynomial of the last group.
+fn columns(named: &Named<'_>, derivation: &RingDerivation) -> std::result::Result<Columns, String> {
+    let best = derivation.polynomials.first().ok_or("no closure polynomial")?;
+    Ok(Columns {
+        degree: best.roots(),
+        unknown: named.variable(best.unknown),
+        real: Some(best.real_roots()),
+        digits: digits(best.coefficients.coefficients().iter()),
+    })
+}
+
+/// The page of a linkage in the last column.
+fn linked(name: &str, has_page: bool) -> String {
+    if has_page { format!("[{name}.eqs]({name}.eqs)") } else { "`derive`".to_owned() }
+}
+
+/// The row of a linkage in space.
 #[must_use]
-pub fn sphere_row(file: &SphereFile, name: &str) -> String {
-    row_of(name, &file.heading.title, "`derive`", || {
-        let given = file.cases.first().and_then(|case| case.given.iter().find_map(|one| one.joint));
-        let found = transfer(&file.linkage, given.ok_or("no given joint")?).map_err(|error| reason(&error))?;
+pub fn space_row(file: &SpaceFile, name: &str, has_page: bool) -> String {
+    row_of(name, &file.heading.title, &linked(name, has_page), || {
+        let case = file.cases.first().ok_or("no case")?;
+        let found = derive_in_space(&file.linkage, &case.given).map_err(|error| reason(&error))?;
+        columns(&Named::in_space(file, 1), &found)
+    })
+}
+
+/// The row of a linkage on the sphere: the closure polynomial, or without a given joint the transfer function, a polynomial in the tangents
+/// of two half angles.
+#[must_use]
+pub fn sphere_row(file: &SphereFile, name: &str, has_page: bool) -> String {
+    row_of(name, &file.heading.title, &linked(name, has_page), || {
+        let given = &file.cases.first().ok_or("no case")?.given;
+        if !given.is_empty() {
+            let found = derive_on_sphere(&file.linkage, given).map_err(|error| reason(&error))?;
+            return columns(&Named::on_sphere(file, 1), &found);
+        }
+        let ground = file.linkage.joints.iter().position(|joint| joint.of.contains(&file.linkage.ground));
+        let found = transfer(&file.linkage, ground.ok_or("no joint at the ground")?).map_err(|error| reason(&error))?;
         let joint = |joint: usize| &file.linkage.joints[joint].name;
         Ok(Columns {
             degree: found.polynomial.degree(1) as usize,
@@ -166,8 +235,8 @@ pub fn sphere_row(file: &SphereFile, name: &str) -> String {
 
 /// Judges the text of a `.eqs` file by what is derived from its entry.
 #[must_use]
-pub fn judged(entry: &Entry, file: &str, kept: &str) -> Finding {
-    let (line, message) = match atlas(entry) {
+pub fn judged(any: &Any, file: &str, kept: &str) -> Finding {
+    let (line, message) = match page(any) {
         Ok(Some(derived)) if derived == kept => (1, None),
         Ok(Some(derived)) => {
             let (line, found, expected) = first_difference(kept, &derived);

@@ -64,6 +64,8 @@ impl<'f> Named<'f> {
             Unknown::HalfTangent { joint, .. } => format!("t_{}", self.joints[joint][0]),
             Unknown::Distance { joint, .. } => format!("d_{}", self.joints[joint][0]),
             Unknown::Position { body, axis } => format!("{}_{}", AXES[axis], self.bodies[body]),
+            Unknown::Rotation { body, at: [i, j] } => format!("r{}{}_{}", i + 1, j + 1, self.bodies[body]),
+            Unknown::Axis { joint, axis, .. } => format!("{}_{}", AXES[axis], self.joints[joint][0]),
         }
     }
 
@@ -83,6 +85,13 @@ impl<'f> Named<'f> {
             Unknown::Position { body, axis } => {
                 format!("{name} is the coordinate {} of the origin of {} in metres", AXES[axis], self.bodies[body])
             }
+            Unknown::Rotation { body, at: [i, j] } => {
+                format!("{name} is the entry of row {} and column {} of the rotation matrix of {}", i + 1, j + 1, self.bodies[body])
+            }
+            Unknown::Axis { joint, axis, rest } => {
+                let [axis, joint, rest] = [AXES[axis], self.joints[joint][0], self.bodies[rest]];
+                format!("{name} is the coordinate {axis} of the axis of {joint} in those of {rest}")
+            }
         }
     }
 
@@ -92,7 +101,10 @@ impl<'f> Named<'f> {
             Unknown::HalfTangent { joint, .. } | Unknown::Distance { joint, .. } => {
                 [self.joints[joint][2], self.joints[joint][1]]
             }
-            Unknown::Position { body, .. } => [self.bodies[body], self.bodies[self.ground]],
+            Unknown::Position { body, .. } | Unknown::Rotation { body, .. } => {
+                [self.bodies[body], self.bodies[self.ground]]
+            }
+            Unknown::Axis { joint, rest, .. } => [self.joints[joint][2], self.bodies[rest]],
         }
     }
 
@@ -126,10 +138,15 @@ pub fn verdict(named: &Named<'_>, derivation: &RingDerivation) -> String {
     let at_pi =
         if best.at_pi > 0 { format!(", {} at the half turn", counted(best.at_pi, "root")) } else { String::new() };
     let real = counted(best.coefficients.distinct_real_roots(), "distinct real root");
+    let each = match best.shared {
+        1 => String::new(),
+        shared => format!(", each of {shared} assemblies"),
+    };
     let proof = match best.distinct {
         _ if best.separates() => "every root is one of an assembly (proved)".to_owned(),
         Some(distinct) => format!(
-            "the {distinct} distinct assemblies have {} different values of it, and real roots may belong to complex ones",
+            "the {distinct} distinct assemblies have {} different values of it{each} (proved), and real ones may be those of complex \
+             assemblies",
             best.values()
         ),
         None => "whether different assemblies have different values of it is not known".to_owned(),
@@ -148,7 +165,8 @@ fn steps(named: &Named<'_>, derivation: &RingDerivation) -> Vec<String> {
             best.assemblies
         ));
         steps.push(format!(
-            "The closure polynomial is the characteristic polynomial of the multiplication by the unknown there; {}.",
+            "The closure polynomial is the characteristic polynomial of the multiplication by the unknown there{}; {}.",
+            if best.shared > 1 { format!(", which is its power {}", best.shared) } else { String::new() },
             named.meaning(best.unknown)
         ));
     }
@@ -166,8 +184,9 @@ fn group_json(named: &Named<'_>, one: &RingPolynomial) -> Value {
         "coefficients": coefficients(&one.coefficients),
         "at_pi": one.at_pi,
         "assemblies": one.assemblies,
+        "shared": one.shared,
         "values": one.values(),
-        "proved": one.separates(),
+        "proved": one.distinct.is_some(),
     })
 }
 
@@ -193,7 +212,7 @@ pub fn json(named: &Named<'_>, derivation: &RingDerivation) -> Value {
     }));
     if let Some(best) = best {
         let variable = named.variable(best.unknown);
-        insert_polynomial(&mut document, &variable, &best.coefficients, best.at_pi, best.separates());
+        insert_polynomial(&mut document, &variable, &best.coefficients, best.at_pi, best.distinct.is_some());
     }
     document
 }
@@ -207,6 +226,7 @@ pub fn text(named: &Named<'_>, derivation: &RingDerivation) -> String {
     let names: Vec<String> = derivation.symbols.iter().map(|one| named.symbol(*one)).collect();
     for equation in &derivation.equations {
         let whole = written(equation, &names);
+        // Equations of a plate have thousands of terms.
         if whole.len() > LONGEST {
             let degree = equation.total_degree().unwrap_or(0);
             let _ = writeln!(text, "  {} of degree {degree} (--json)", counted(equation.len(), "term"));
@@ -219,8 +239,8 @@ pub fn text(named: &Named<'_>, derivation: &RingDerivation) -> String {
         paragraph(&mut text, &step);
     }
     for one in &derivation.polynomials {
-        let doubt = if one.separates() { "" } else { ", which some assemblies share" };
-        let heading = format!("\nGroup {}, of {}{doubt}", one.group + 1, counted(one.assemblies, "root"));
+        let doubt = if one.separates() { String::new() } else { format!(", which {} assemblies share", one.assemblies) };
+        let heading = format!("\nGroup {}, {}{doubt}", one.group + 1, counted(one.roots(), "root"));
         let _ = writeln!(text, "{heading}: {}", named.meaning(one.unknown));
         let _ = writeln!(text, "  {}", written(&univariate(&one.coefficients), &[named.variable(one.unknown)]));
     }
@@ -302,4 +322,21 @@ pub fn symbolic_json(named: &Named<'_>, found: &RingSymbolic) -> Value {
         "terms": found.polynomial.len(),
         "polynomial": { "variable": names[0], "coefficients": coefficients.collect::<Vec<String>>() },
     }))
+}
+
+/// The equations of a case and the closure polynomial of its last group on a page of the atlas, and the latter by itself.
+#[must_use]
+pub(super) fn page(named: &Named<'_>, derivation: &RingDerivation) -> (String, Option<String>) {
+    let names: Vec<String> = derivation.symbols.iter().map(|one| named.symbol(*one)).collect();
+    let mut text = String::new();
+    for (k, equation) in (1..).zip(&derivation.equations) {
+        let _ = write!(text, "\nequation {k}\n  {}\n", written(equation, &names));
+    }
+    let last = derivation.polynomials.first().map(|best| {
+        let name = named.variable(best.unknown);
+        let degree = best.coefficients.degree().unwrap_or(0);
+        let own = written(&univariate(&best.coefficients), std::slice::from_ref(&name));
+        format!("\nclosure polynomial of degree {degree} in {name}\n  {own}\n")
+    });
+    (text, last)
 }

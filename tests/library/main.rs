@@ -31,6 +31,7 @@ mod pencil;
 mod platform;
 mod printed;
 mod real_field;
+mod ring_derive;
 mod robots;
 mod slides;
 mod space;

@@ -238,12 +238,18 @@ fn surfaces_of_open_chains_hold_the_points_of_the_chains() {
 
 #[test]
 fn relations_with_symbols_hold_at_all_assemblies() {
-    for (name, symbols, degrees) in
-        [("spherical_four_bar", 4, [2, 2]), ("hooke_series", 2, [4, 4]), ("spherical_watt", 3, [2, 2])]
-    {
+    for (name, symbols, degrees, wanted) in [
+        ("spherical_four_bar", 4, [2, 2], None),
+        ("hooke_series", 2, [4, 4], None),
+        ("spherical_watt", 3, [2, 2], None),
+        // The other sides have numbers.
+        ("spherical_four_bar", 1, [2, 2], Some("c_A_B")),
+        ("spherical_four_bar", 1, [2, 2], Some("k_B_C")),
+    ] {
         let file = builtin(&format!("linkage/{name}"));
         let case = &file.cases[0];
-        let found = sphere_with_symbols(&file.linkage, case.given[0].joint.unwrap(), &[]).unwrap();
+        let wanted: Vec<String> = wanted.iter().map(|name: &&str| (*name).to_owned()).collect();
+        let found = sphere_with_symbols(&file.linkage, case.given[0].joint.unwrap(), &wanted).unwrap();
         assert!(found.symbols.len() >= symbols, "{name}: {:?}", found.symbols);
         assert!((0..2).all(|k| found.polynomial.degree(k) <= degrees[k]), "{name}");
         let answer = solve(&file.linkage, &case.given, true).unwrap();

@@ -135,6 +135,10 @@ fn the_document_follows_its_schema() {
             "derive linkage/coupler_curve --trace coupler.P --json",
             "derive linkage/spherical_cusp --trace coupler.P --json",
             "derive linkage/double_hooke --json",
+            "derive linkage/spherical_3rrr --json",
+            "derive linkage/rssr_ssr --json",
+            "derive linkage/delta --input 2 --json",
+            "derive linkage/rssr_ssr --symbolic=A --json",
             "derive arm/chain_rr --trace tool --json",
         ],
     );

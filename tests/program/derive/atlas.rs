@@ -1,8 +1,8 @@
 //! The atlas of closure equations: text beside every mechanism whose equations fit two pages.
 
 use super::run;
-use looproot::internal::catalogue::{Options, load};
-use looproot::internal::report::atlas::atlas;
+use looproot::internal::catalogue::{Options, load_any};
+use looproot::internal::report::atlas::page;
 use std::fs;
 use std::path::PathBuf;
 
@@ -21,7 +21,7 @@ fn the_atlas_is_what_is_derived() {
     for path in entries() {
         let Ok(kept) = fs::read_to_string(path.with_extension("eqs")) else { continue };
         let name = path.display().to_string();
-        let derived = atlas(&load(&name, &Options::default()).unwrap()).unwrap();
+        let derived = page(&load_any(&name, &Options::default()).unwrap()).unwrap();
         assert!(derived.as_ref() == Some(&kept), "{name}: looproot derive --bless equations");
         pages += 1;
     }

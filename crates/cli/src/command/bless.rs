@@ -3,9 +3,9 @@
 use super::check::files;
 use super::exit::{Exit, Fault, complain};
 use super::output::print;
-use looproot::internal::catalogue::{Any, Options, load, load_solvable};
+use looproot::internal::catalogue::{Any, Options, load_any, load_solvable};
 use looproot::internal::error::{Error, Result};
-use looproot::internal::report::atlas::{HEAD, atlas, linkage_row, row, sphere_row};
+use looproot::internal::report::atlas::{HEAD, linkage_row, page, row, space_row, sphere_row};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -32,10 +32,12 @@ pub fn table(paths: &[String]) -> std::result::Result<Exit, Fault> {
     for file in files(paths)? {
         let path = Path::new(&file).with_extension("");
         let name = path.strip_prefix(&root).unwrap_or(&path).display().to_string();
+        let has_page = path.with_extension("eqs").exists();
         match load_solvable(&file, &Options::default()) {
-            Ok(Any::Entry(entry)) => print(&row(&entry, &name, path.with_extension("eqs").exists()))?,
+            Ok(Any::Entry(entry)) => print(&row(&entry, &name, has_page))?,
             Ok(Any::Linkage(file)) => print(&linkage_row(&file, &name))?,
-            Ok(Any::Sphere(file)) => print(&sphere_row(&file, &name))?,
+            Ok(Any::Sphere(file)) => print(&sphere_row(&file, &name, has_page))?,
+            Ok(Any::Space(file)) => print(&space_row(&file, &name, has_page))?,
             // Frameworks and other files have no closure polynomial.
             _ => {}
         }
@@ -50,7 +52,7 @@ fn blessed(path: &Path) -> Result<String> {
         return Err(fault(path, "is no name.toml, beside which name.eqs could stand".to_owned()));
     }
     let target = path.with_extension("eqs");
-    let text = match atlas(&load(&path.display().to_string(), &Options::default())?) {
+    let text = match page(&load_any(&path.display().to_string(), &Options::default())?) {
         Ok(text) => text,
         Err(error) => {
             return error.unsupported().map(|reason| format!("no equations, {reason}")).ok_or(error.clone());

@@ -61,10 +61,12 @@ pub fn run(options: &CheckOptions) -> Result<Exit, Fault> {
 
 /// Checks whether the equations beside a file, if there are any, are those derived from it.
 fn page(name: &str, is_library: bool, any: &Any) -> Result<Option<Finding>, Error> {
-    let Any::Entry(entry) = any else { return Ok(None) };
+    if !matches!(any, Any::Entry(_) | Any::Space(_) | Any::Sphere(_)) {
+        return Ok(None);
+    }
     let path = Path::new(name).with_extension("eqs");
     if is_library || !Path::new(name).is_file() {
-        return Ok(builtin_page(name).map(|(file, text)| judged(entry, &file, text)));
+        return Ok(builtin_page(name).map(|(file, text)| judged(any, &file, text)));
     }
     // A name without extension would be its own equations file.
     if !path.is_file() || path == Path::new(name) {
@@ -73,7 +75,7 @@ fn page(name: &str, is_library: bool, any: &Any) -> Result<Option<Finding>, Erro
     let file = path.display().to_string();
     let text =
         std::fs::read_to_string(&path).map_err(|error| Error::Io { path: file.clone(), message: error.to_string() })?;
-    Ok(Some(judged(entry, &file, &text)))
+    Ok(Some(judged(any, &file, &text)))
 }
 
 /// Returns the mechanism files under these paths, in order; names of built-in entries are kept as they are.

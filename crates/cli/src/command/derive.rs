@@ -199,8 +199,12 @@ pub fn with_symbols(
 /// Returns the exit code of a linkage in space or on the sphere whose numbers are exact or not.
 pub fn exit_of_ring(derivation: &RingDerivation, is_exact: bool) -> Exit {
     match derivation.polynomials.first() {
-        Some(best) if best.separates() && is_exact => {
-            if best.real_roots() > 0 { Exit::Complete } else { Exit::Unreachable }
+        Some(best) if best.distinct.is_some() && is_exact => {
+            if best.real_roots() > 0 {
+                Exit::Complete
+            } else {
+                Exit::Unreachable
+            }
         }
         _ => Exit::NotProved,
     }

@@ -15,10 +15,10 @@ use looproot::internal::derivation::{
 use looproot::internal::error::Error;
 use looproot::internal::kinematics::closed_loop::Variable;
 use looproot::internal::linkage::sphere::solve;
-use looproot::internal::report::{axodes, ring_derivation as ring};
 use looproot::internal::report::ratio::Ratio;
 use looproot::internal::report::sphere as report;
 use looproot::internal::report::sphere_sweep as sweeps;
+use looproot::internal::report::{axodes, ring_derivation as ring};
 use looproot::internal::sweep::{SphereCase, sweep_sphere};
 use looproot::internal::view::drawable;
 use std::borrow::Cow;
