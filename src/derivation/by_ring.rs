@@ -45,17 +45,21 @@ pub enum Unknown {
         /// See above.
         over: bool,
     },
-    /// A coordinate of the origin of a body, in those of the ground, or of the first body of a group without the ground.
+    /// A coordinate of the origin of a body.
     Position {
         /// The body.
         body: usize,
+        /// The body in whose coordinates it is: the ground, or the first one of a group without it.
+        against: usize,
         /// 0, 1 or 2.
         axis: usize,
     },
-    /// An entry of the rotation matrix of a body against the same.
+    /// An entry of the rotation matrix of a body.
     Rotation {
         /// The body.
         body: usize,
+        /// As above.
+        against: usize,
         /// Its row and column, from 0.
         at: [usize; 2],
     },
@@ -112,13 +116,9 @@ impl RingPolynomial {
 
     /// Takes the root of the highest order that the polynomial has.
     fn reduced(mut self) -> Self {
-        let parts = self.coefficients.square_free_decomposition();
-        let order = parts.iter().fold(self.at_pi, |order, (_, k)| gcd(order, *k));
-        if order > 1 {
-            let power = |(part, k): &(Univariate<Integer>, usize)| vec![part.clone(); k / order];
-            let factors = parts.iter().flat_map(power);
-            self.coefficients = factors.fold(Univariate::one(), |all, part| all.mul(&part)).primitive_part();
-            (self.at_pi, self.shared) = (self.at_pi / order, order);
+        let order = order_of(&self.coefficients, self.at_pi);
+        if let Some(root) = root_of(&self.coefficients, order) {
+            (self.coefficients, self.at_pi, self.shared) = (root, self.at_pi / order, order);
         }
         self
     }
@@ -193,6 +193,21 @@ impl Part {
     }
 }
 
+/// Returns the highest order of a power that a polynomial is up to a factor, with so many roots at infinity.
+pub(super) fn order_of(polynomial: &Univariate<Integer>, at_infinity: usize) -> usize {
+    polynomial.square_free_decomposition().iter().fold(at_infinity, |order, (_, k)| gcd(order, *k))
+}
+
+/// Returns the polynomial of which another one is the power of this order, up to a factor; `None` if there is none.
+pub(super) fn root_of(polynomial: &Univariate<Integer>, order: usize) -> Option<Univariate<Integer>> {
+    let parts = polynomial.square_free_decomposition();
+    if order == 0 || parts.iter().any(|(_, k)| k % order > 0) {
+        return None;
+    }
+    let factors = parts.iter().flat_map(|(part, k)| vec![part; k / order]);
+    Some(factors.fold(Univariate::one(), |all, part| all.mul(part)).primitive_part())
+}
+
 fn gcd(a: usize, b: usize) -> usize {
     if b == 0 { a } else { gcd(b, a % b) }
 }
@@ -260,7 +275,8 @@ pub(super) fn part_in_space(
         let joint = *joint;
         match &one.pair {
             SpacePair::Revolute(axis) => {
-                let known = [Symbol::Cosine(joint), Symbol::Sine(joint)].map(|wanted| variable(&system.symbols, wanted));
+                let known =
+                    [Symbol::Cosine(joint), Symbol::Sine(joint)].map(|wanted| variable(&system.symbols, wanted));
                 if let [Some(cos), Some(sin)] = known {
                     let (function, over) = half_tangent(&axis.sphere, cos, &sin);
                     functions.push((Unknown::HalfTangent { joint, over }, function));
@@ -281,14 +297,17 @@ pub(super) fn part_in_space(
         }
     }
     functions.extend(others);
-    for body in group.iter().filter(|cluster| !cluster.contains(&order[0])).filter_map(|cluster| cluster.first()) {
+    let against = order[0];
+    for body in group.iter().filter(|cluster| !cluster.contains(&against)).filter_map(|cluster| cluster.first()) {
         let Some(place) = system.place(*body) else { continue };
         let coordinates = place.translation.into_iter().enumerate().filter(|(_, c)| c.degree() > 0);
-        functions.extend(coordinates.map(|(axis, c)| (Unknown::Position { body: *body, axis }, Function::Plain(c))));
+        functions.extend(
+            coordinates.map(|(axis, c)| (Unknown::Position { body: *body, against, axis }, Function::Plain(c))),
+        );
         let entries = place.rotation.into_iter().enumerate();
         let entries = entries.flat_map(|(i, row)| row.into_iter().enumerate().map(move |(j, c)| ([i, j], c)));
         let entries = entries.filter(|(_, c)| (1..=HIGHEST).contains(&c.degree()));
-        functions.extend(entries.map(|(at, c)| (Unknown::Rotation { body: *body, at }, Function::Plain(c))));
+        functions.extend(entries.map(|(at, c)| (Unknown::Rotation { body: *body, against, at }, Function::Plain(c))));
     }
     Ok(Part { unknowns: system.unknowns, equations: system.equations, symbols: system.symbols, functions })
 }

@@ -152,7 +152,6 @@ fn pencil(below: &Columns, above: &Columns) -> Option<Univariate<Rational>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::derivation::coordinate_ring::Solutions;
 
     /// The points of the unit circle on a line: one of them makes half a turn.
     #[test]

@@ -1,12 +1,15 @@
 //! Closure polynomials of linkages in space and on the sphere with numbers of the file as symbols, interpolated from those at values.
 
-use super::by_ring::{Part, Unknown, derive_in_space, derive_on_sphere, part_in_space, part_on_sphere};
+use super::by_ring::{
+    Part, Unknown, derive_in_space, derive_on_sphere, order_of, part_in_space, part_on_sphere, root_of,
+};
 use super::coordinate_ring::{CoordinateRing, Solutions};
 use super::equation::primitive;
 use super::interpolation::{COMPARED, Family, Source, Values, Watch};
 use crate::algebra::int::Int;
 use crate::algebra::number::{Angle, HalfTangent, Number};
 use crate::algebra::polynomial::Polynomial;
+use crate::algebra::univariate::Univariate;
 use crate::catalogue::entry::InputValue;
 use crate::catalogue::{SpaceFile, SphereFile, sphere::turned};
 use crate::error::{Error, Result};
@@ -57,6 +60,8 @@ struct Rings<'a> {
     part: &'a (dyn Fn(&[Rational]) -> Option<Part> + Sync),
     unknown: Unknown,
     degree: usize,
+    /// The number of assemblies at every root.
+    shared: usize,
 }
 
 impl Rings<'_> {
@@ -64,8 +69,11 @@ impl Rings<'_> {
         let part = (self.part)(values)?;
         let (_, function) = part.functions.iter().find(|(unknown, _)| *unknown == self.unknown)?;
         let Solutions::Finite(ring) = CoordinateRing::of(part.unknowns, &part.equations, EFFORT)? else { return None };
-        let (polynomial, _) = ring.values(function)?;
-        Some((ring.dimension(), polynomial.coefficients().to_vec()))
+        let (mut polynomial, _) = ring.values(function)?;
+        if self.shared > 1 {
+            polynomial = root_of(&polynomial, self.shared)?;
+        }
+        Some((ring.dimension() / self.shared, polynomial.coefficients().to_vec()))
     }
 }
 
@@ -79,23 +87,26 @@ impl Source for Rings<'_> {
 
 fn interpolated(
     part: &(dyn Fn(&[Rational]) -> Option<Part> + Sync),
-    unknown: Unknown,
+    unknown: Option<Unknown>,
     symbols: &[String],
     watch: &Watch<'_>,
 ) -> Result<RingSymbolic> {
+    let unknown = unknown.ok_or_else(|| Error::Unsupported("a linkage without closure polynomial".to_owned()))?;
     let none = || {
         let message = "with these symbols the equations have no solutions, infinitely many, or take too much work";
         Error::Unsupported(message.to_owned())
     };
-    let mut source = Rings { part, unknown, degree: 0 };
-    let (degree, _) = source.at(&Values::Small.start(symbols.len())).ok_or_else(none)?;
+    let mut source = Rings { part, unknown, degree: 0, shared: 1 };
+    let (whole, first) = source.at(&Values::Small.start(symbols.len())).ok_or_else(none)?;
+    source.shared = order_of(&Univariate::new(first.clone()), (whole + 1).saturating_sub(first.len())).max(1);
+    let degree = whole / source.shared;
     source.degree = degree;
     let family = Family::new(&source, watch, Values::Small, symbols.to_vec(), degree + 1);
     let exponent = |power: usize| u32::try_from(power).unwrap_or(u32::MAX);
     let interpolated = family.interpolated()?;
-    let terms = interpolated.terms().map(|(power, others, c)| {
-        (std::iter::once(exponent(power)).chain(others).collect::<Vec<u32>>(), c.clone())
-    });
+    let terms = interpolated
+        .terms()
+        .map(|(power, others, c)| (std::iter::once(exponent(power)).chain(others).collect::<Vec<u32>>(), c.clone()));
     let found = primitive(&Polynomial::from_terms(terms));
     family.compare(&found, 1, |coefficients| {
         let terms = coefficients.iter().enumerate();
@@ -122,7 +133,8 @@ fn unknown_symbol(name: &str, known: &str) -> Error {
     Error::Invalid(format!("found the symbol {name}, expected {known}"))
 }
 
-const IN_SPACE: &str = "--symbolic=NAMES of coordinates of points as crank.B.x, of lengths as rod.length, and of given joints";
+const IN_SPACE: &str =
+    "--symbolic=NAMES of coordinates of points as crank.B.x, of lengths as rod.length, and of given joints";
 
 fn parameter(file: &SpaceFile, case: usize, name: &str) -> Result<Parameter> {
     let linkage = &file.linkage;
@@ -222,7 +234,6 @@ pub fn derive_in_space_with_symbols(
     let parameters = names.iter().map(|name| parameter(file, case, name)).collect::<Result<Vec<_>>>()?;
     let base = derive_in_space(&file.linkage, &file.cases[case].given)?;
     let unknown = base.polynomials.first().map(|best| best.unknown);
-    let unknown = unknown.ok_or_else(|| Error::Unsupported("a linkage without closure polynomial".to_owned()))?;
     let part = |values: &[Rational]| {
         let own = with_values(file, case, &parameters, values)?;
         let (linkage, given) = (&own.linkage, &own.cases[0].given);
@@ -254,7 +265,6 @@ pub fn derive_on_sphere_with_symbols(
     let places = names.iter().map(place).collect::<Result<Vec<usize>>>()?;
     let base = derive_on_sphere(linkage, given)?;
     let unknown = base.polynomials.first().map(|best| best.unknown);
-    let unknown = unknown.ok_or_else(|| Error::Unsupported("a linkage without closure polynomial".to_owned()))?;
     let part = |values: &[Rational]| {
         let mut given = given.clone();
         for (place, value) in places.iter().zip(values) {

@@ -77,11 +77,19 @@ pub fn page(any: &Any) -> Result<Option<String>> {
         Any::Entry(entry) => return atlas(entry),
         Any::Space(file) if !file.cases.is_empty() => {
             let found = derive_in_space(&file.linkage, &file.cases[0].given)?;
-            (&file.heading, !(file.exact && file.cases[0].exact), ring_derivation::page(&Named::in_space(file, 1), &found))
+            (
+                &file.heading,
+                !(file.exact && file.cases[0].exact),
+                ring_derivation::page(&Named::in_space(file, 1), &found),
+            )
         }
         Any::Sphere(file) if file.cases.first().is_some_and(|case| !case.given.is_empty()) => {
             let found = derive_on_sphere(&file.linkage, &file.cases[0].given)?;
-            (&file.heading, !(file.exact && file.cases[0].exact), ring_derivation::page(&Named::on_sphere(file, 1), &found))
+            (
+                &file.heading,
+                !(file.exact && file.cases[0].exact),
+                ring_derivation::page(&Named::on_sphere(file, 1), &found),
+            )
         }
         _ => return Err(Error::Unsupported("a page of equations of a file of this kind".to_owned())),
     };

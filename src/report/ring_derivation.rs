@@ -22,7 +22,8 @@ pub struct Named<'f> {
     /// Whether the value of a joint is a distance.
     distances: Vec<bool>,
     bodies: Vec<&'f str>,
-    ground: usize,
+    /// Whether numbers of the file or the input were rounded.
+    is_rounded: bool,
     complete: Box<dyn Fn(Value) -> Value + 'f>,
 }
 
@@ -30,14 +31,14 @@ impl<'f> Named<'f> {
     /// Returns a case of a linkage in space, counted from 1.
     #[must_use]
     pub fn in_space(file: &'f SpaceFile, number: usize) -> Self {
-        let asked = space::asked(file, &file.cases[number - 1].given);
-        let bodies: Vec<&str> = file.linkage.bodies.iter().map(|body| body.name.as_str()).collect();
+        let (linkage, case) = (&file.linkage, &file.cases[number - 1]);
+        let bodies: Vec<&str> = linkage.bodies.iter().map(|body| body.name.as_str()).collect();
         Self {
-            heading: format!("{}, case {number}: {asked}", file.heading.title),
-            joints: file.linkage.joints.iter().map(|one| [&*one.name, bodies[one.of[0]], bodies[one.of[1]]]).collect(),
-            distances: file.linkage.joints.iter().map(|one| one.is_distance() == Some(true)).collect(),
+            heading: format!("{}, case {number}: {}", file.heading.title, space::asked(file, &case.given)),
+            joints: linkage.joints.iter().map(|one| [&*one.name, bodies[one.of[0]], bodies[one.of[1]]]).collect(),
+            distances: linkage.joints.iter().map(|one| one.is_distance() == Some(true)).collect(),
             bodies,
-            ground: file.linkage.ground,
+            is_rounded: !(file.exact && case.exact),
             complete: Box::new(move |own| space::completed(file, number, own)),
         }
     }
@@ -45,14 +46,14 @@ impl<'f> Named<'f> {
     /// Returns a case of a linkage on the sphere, counted from 1.
     #[must_use]
     pub fn on_sphere(file: &'f SphereFile, number: usize) -> Self {
-        let asked = sphere::asked(file, &file.cases[number - 1].given);
-        let bodies: Vec<&str> = file.linkage.bodies.iter().map(|body| body.name.as_str()).collect();
+        let (linkage, case) = (&file.linkage, &file.cases[number - 1]);
+        let bodies: Vec<&str> = linkage.bodies.iter().map(|body| body.name.as_str()).collect();
         Self {
-            heading: format!("{}, case {number}: {asked}", file.heading.title),
-            joints: file.linkage.joints.iter().map(|one| [&*one.name, bodies[one.of[0]], bodies[one.of[1]]]).collect(),
-            distances: vec![false; file.linkage.joints.len()],
+            heading: format!("{}, case {number}: {}", file.heading.title, sphere::asked(file, &case.given)),
+            joints: linkage.joints.iter().map(|one| [&*one.name, bodies[one.of[0]], bodies[one.of[1]]]).collect(),
+            distances: vec![false; linkage.joints.len()],
             bodies,
-            ground: file.linkage.ground,
+            is_rounded: !(file.exact && case.exact),
             complete: Box::new(move |own| sphere::completed(file, number, own)),
         }
     }
@@ -63,8 +64,8 @@ impl<'f> Named<'f> {
         match unknown {
             Unknown::HalfTangent { joint, .. } => format!("t_{}", self.joints[joint][0]),
             Unknown::Distance { joint, .. } => format!("d_{}", self.joints[joint][0]),
-            Unknown::Position { body, axis } => format!("{}_{}", AXES[axis], self.bodies[body]),
-            Unknown::Rotation { body, at: [i, j] } => format!("r{}{}_{}", i + 1, j + 1, self.bodies[body]),
+            Unknown::Position { body, axis, .. } => format!("{}_{}", AXES[axis], self.bodies[body]),
+            Unknown::Rotation { body, at: [i, j], .. } => format!("r{}{}_{}", i + 1, j + 1, self.bodies[body]),
             Unknown::Axis { joint, axis, .. } => format!("{}_{}", AXES[axis], self.joints[joint][0]),
         }
     }
@@ -82,11 +83,14 @@ impl<'f> Named<'f> {
                 let [joint, one, two] = self.joints[joint];
                 format!("{name} is the displacement of {joint} in metres, of {two} against {one}{}", over(is_over))
             }
-            Unknown::Position { body, axis } => {
-                format!("{name} is the coordinate {} of the origin of {} in metres", AXES[axis], self.bodies[body])
+            Unknown::Position { body, against, axis } => {
+                let [body, against] = [body, against].map(|body| self.bodies[body]);
+                format!("{name} is the coordinate {} of the origin of {body} against {against} in metres", AXES[axis])
             }
-            Unknown::Rotation { body, at: [i, j] } => {
-                format!("{name} is the entry of row {} and column {} of the rotation matrix of {}", i + 1, j + 1, self.bodies[body])
+            Unknown::Rotation { body, against, at: [i, j] } => {
+                let [body, against] = [body, against].map(|body| self.bodies[body]);
+                let place = format!("row {} and column {}", i + 1, j + 1);
+                format!("{name} is the entry of {place} of the rotation matrix of {body} against {against}")
             }
             Unknown::Axis { joint, axis, rest } => {
                 let [axis, joint, rest] = [AXES[axis], self.joints[joint][0], self.bodies[rest]];
@@ -101,8 +105,8 @@ impl<'f> Named<'f> {
             Unknown::HalfTangent { joint, .. } | Unknown::Distance { joint, .. } => {
                 [self.joints[joint][2], self.joints[joint][1]]
             }
-            Unknown::Position { body, .. } | Unknown::Rotation { body, .. } => {
-                [self.bodies[body], self.bodies[self.ground]]
+            Unknown::Position { body, against, .. } | Unknown::Rotation { body, against, .. } => {
+                [self.bodies[body], self.bodies[against]]
             }
             Unknown::Axis { joint, rest, .. } => [self.joints[joint][2], self.bodies[rest]],
         }
@@ -142,10 +146,11 @@ pub fn verdict(named: &Named<'_>, derivation: &RingDerivation) -> String {
         1 => String::new(),
         shared => format!(", each of {shared} assemblies"),
     };
+    let proved = if named.is_rounded { "proved of the rounded numbers" } else { "proved" };
     let proof = match best.distinct {
-        _ if best.separates() => "every root is one of an assembly (proved)".to_owned(),
+        _ if best.separates() => format!("every root is one of an assembly ({proved})"),
         Some(distinct) => format!(
-            "the {distinct} distinct assemblies have {} different values of it{each} (proved), and real ones may be those of complex \
+            "the {distinct} distinct assemblies have {} different values of it{each} ({proved}), and real ones may be those of complex \
              assemblies",
             best.values()
         ),
@@ -173,6 +178,11 @@ fn steps(named: &Named<'_>, derivation: &RingDerivation) -> Vec<String> {
     steps
 }
 
+/// Whether it is proved of the file that every root belongs to an assembly and every assembly to a root.
+fn is_proved(named: &Named<'_>, one: &RingPolynomial) -> bool {
+    one.distinct.is_some() && !named.is_rounded
+}
+
 fn group_json(named: &Named<'_>, one: &RingPolynomial) -> Value {
     let [body, against] = named.ends(one.unknown);
     json!({
@@ -186,7 +196,7 @@ fn group_json(named: &Named<'_>, one: &RingPolynomial) -> Value {
         "assemblies": one.assemblies,
         "shared": one.shared,
         "values": one.values(),
-        "proved": one.distinct.is_some(),
+        "proved": is_proved(named, one),
     })
 }
 
@@ -212,7 +222,7 @@ pub fn json(named: &Named<'_>, derivation: &RingDerivation) -> Value {
     }));
     if let Some(best) = best {
         let variable = named.variable(best.unknown);
-        insert_polynomial(&mut document, &variable, &best.coefficients, best.at_pi, best.distinct.is_some());
+        insert_polynomial(&mut document, &variable, &best.coefficients, best.at_pi, is_proved(named, best));
     }
     document
 }
@@ -239,7 +249,8 @@ pub fn text(named: &Named<'_>, derivation: &RingDerivation) -> String {
         paragraph(&mut text, &step);
     }
     for one in &derivation.polynomials {
-        let doubt = if one.separates() { String::new() } else { format!(", which {} assemblies share", one.assemblies) };
+        let doubt =
+            if one.separates() { String::new() } else { format!(", which {} assemblies share", one.assemblies) };
         let heading = format!("\nGroup {}, {}{doubt}", one.group + 1, counted(one.roots(), "root"));
         let _ = writeln!(text, "{heading}: {}", named.meaning(one.unknown));
         let _ = writeln!(text, "  {}", written(&univariate(&one.coefficients), &[named.variable(one.unknown)]));
@@ -254,9 +265,12 @@ pub fn text(named: &Named<'_>, derivation: &RingDerivation) -> String {
 fn variables(named: &Named<'_>, found: &RingSymbolic) -> Vec<String> {
     let own = found.symbols.iter().map(|name| {
         let joint = named.joints.iter().position(|[joint, ..]| joint == name);
-        joint.map_or_else(|| name.replace('.', "_"), |joint| {
-            if named.distances[joint] { format!("d_{name}") } else { format!("t_{name}") }
-        })
+        joint.map_or_else(
+            || name.replace('.', "_"),
+            |joint| {
+                if named.distances[joint] { format!("d_{name}") } else { format!("t_{name}") }
+            },
+        )
     });
     std::iter::once(named.variable(found.unknown)).chain(own).collect()
 }
@@ -290,7 +304,9 @@ pub fn symbolic_text(named: &Named<'_>, found: &RingSymbolic) -> String {
     let mut text = format!("{}\n", named.heading);
     paragraph(&mut text, &symbolic_verdict(named, found));
     let names = variables(named, found);
-    text.push_str("\nSymbols: coordinates of points in their bodies, lengths, and given values (half-angle tangents, metres)\n");
+    text.push_str(
+        "\nSymbols: coordinates of points in their bodies, lengths, and given values (half-angle tangents, metres)\n",
+    );
     for (variable, name) in names[1..].iter().zip(&found.symbols) {
         let _ = writeln!(text, "  {variable} = {name}");
     }
@@ -328,7 +344,7 @@ pub fn symbolic_json(named: &Named<'_>, found: &RingSymbolic) -> Value {
 #[must_use]
 pub(super) fn page(named: &Named<'_>, derivation: &RingDerivation) -> (String, Option<String>) {
     let names: Vec<String> = derivation.symbols.iter().map(|one| named.symbol(*one)).collect();
-    let mut text = String::new();
+    let mut text = format!("# {LETTERS}\n");
     for (k, equation) in (1..).zip(&derivation.equations) {
         let _ = write!(text, "\nequation {k}\n  {}\n", written(equation, &names));
     }
@@ -336,7 +352,7 @@ pub(super) fn page(named: &Named<'_>, derivation: &RingDerivation) -> (String, O
         let name = named.variable(best.unknown);
         let degree = best.coefficients.degree().unwrap_or(0);
         let own = written(&univariate(&best.coefficients), std::slice::from_ref(&name));
-        format!("\nclosure polynomial of degree {degree} in {name}\n  {own}\n")
+        format!("\nclosure polynomial of degree {degree} in {name}: {}\n  {own}\n", named.meaning(best.unknown))
     });
     (text, last)
 }

@@ -20,14 +20,14 @@ fn in_space(name: &str) -> Box<SpaceFile> {
     }
 }
 
-/// The value of a polynomial over the sum of the sizes of its terms; of an infinite tangent, over the leading coefficient.
-fn relative(polynomial: &Univariate<Integer>, z: Complex<f64>) -> f64 {
+/// Whether the value of a polynomial is small beside the sizes of its terms.
+fn vanishes(polynomial: &Univariate<Integer>, z: Complex<f64>) -> bool {
     let (mut sum, mut size) = (Complex::from(0.0), 0.0);
     for (k, c) in polynomial.coefficients().iter().enumerate() {
         let term = z.powu(u32::try_from(k).unwrap()) * c.to_f64();
         (sum, size) = (sum + term, size + term.norm());
     }
-    sum.norm() / size
+    sum.norm() <= 1e-9 * size
 }
 
 /// Compares a polynomial with the values of its unknown at all assemblies, and the number of these with multiplicity.
@@ -42,7 +42,7 @@ fn compare(name: &str, one: &RingPolynomial, values: &[Complex<f64>], complex: u
         if z.norm() > 1e12 {
             infinite += 1;
         } else {
-            assert!(relative(&one.coefficients, *z) < 1e-9, "{name}: {z}");
+            assert!(vanishes(&one.coefficients, *z), "{name}: {z}");
         }
     }
     assert_eq!(infinite, one.at_pi * one.shared, "{name}");
@@ -79,8 +79,8 @@ fn roots_are_the_assemblies_of_linkages_in_space() {
                 let length = axis.iter().map(|c| c.to_f64().powi(2)).sum::<f64>().sqrt();
                 mode.joints[joint].unwrap() / if over { length } else { 1.0 }
             }
-            Unknown::Position { body, axis } => mode.position(body)[axis],
-            Unknown::Rotation { body, at: [i, j] } => mode.bodies[body].rotation[i][j],
+            Unknown::Position { body, axis, .. } => mode.position(body)[axis],
+            Unknown::Rotation { body, at: [i, j], .. } => mode.bodies[body].rotation[i][j],
             Unknown::Axis { .. } => panic!("{name}: an axis of a linkage on the sphere"),
         };
         let values: Vec<Complex<f64>> = answer.modes.iter().map(value).collect();

@@ -3,6 +3,7 @@
 
 use looproot::internal::catalogue::{Any, Format, Options, SpaceFile, any_from_text, builtin_any};
 use looproot::internal::claims::judge_any;
+use looproot::internal::derivation::derive_in_space;
 use looproot::internal::linkage::space::{SpaceAnswer, solve};
 use looproot::internal::verdict::{Proof, Status};
 use looproot_calculus::motion::{Motion, dot};
@@ -24,7 +25,24 @@ fn read(text: &str) -> Box<SpaceFile> {
 
 fn solved(text: &str) -> SpaceAnswer {
     let file = read(text);
-    solve(&file.linkage, &file.cases[0].given, file.exact && file.cases[0].exact).unwrap()
+    let answer = solve(&file.linkage, &file.cases[0].given, file.exact && file.cases[0].exact).unwrap();
+    derived(&file, &answer);
+    answer
+}
+
+/// The closure polynomial has the assemblies for roots, where they are finite in number.
+fn derived(file: &SpaceFile, answer: &SpaceAnswer) {
+    let given = &file.cases[0].given;
+    let is_finite =
+        answer.verdict.complex_complete && answer.verdict.proof == Proof::Proved && answer.verdict.complex > 0;
+    let Ok(found) = derive_in_space(&file.linkage, given) else {
+        assert!(!is_finite || answer.groups.is_empty(), "{}: no polynomial", answer.verdict.reason);
+        return;
+    };
+    let [best] = found.polynomials.as_slice() else { return };
+    assert_eq!((best.assemblies, best.roots() * best.shared), (answer.verdict.complex, answer.verdict.complex));
+    let real = answer.modes.iter().filter(|mode| mode.real).count();
+    assert!(!best.separates() || (best.real_roots(), best.values()) == (real, answer.modes.len()));
 }
 
 fn refused(text: &str) -> String {

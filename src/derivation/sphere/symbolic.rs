@@ -90,7 +90,10 @@ impl Symbols<'_> {
         }
         let last = self.0.len();
         let [cosine, sine] = own;
-        [cosine.unwrap_or_else(|| Symbolic::variable(2 * last)), sine.unwrap_or_else(|| Symbolic::variable(2 * last + 1))]
+        [
+            cosine.unwrap_or_else(|| Symbolic::variable(2 * last)),
+            sine.unwrap_or_else(|| Symbolic::variable(2 * last + 1)),
+        ]
     }
 
     /// Returns cosine and sine of the side of a body between two joints.

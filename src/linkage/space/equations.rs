@@ -185,17 +185,17 @@ impl System {
     }
 
     /// Places a cluster through a joint of one variable.
-    fn step(&mut self, linkage: &SpaceLinkage, number_of: usize, of: [usize; 2]) -> Result<()> {
-        let joint = &linkage.joints[number_of];
+    fn step(&mut self, linkage: &SpaceLinkage, index: usize, of: [usize; 2]) -> Result<()> {
+        let joint = &linkage.joints[index];
         let to = |v: &Vector<Rational>| Motion::translation(constant(v));
         let back = joint.at[1].each_ref().map(|c| Rational::from(-c));
         let middle = match &joint.pair {
             SpacePair::Prismatic(axis) => {
-                let way = self.unknown(Symbol::Shift(number_of))?;
+                let way = self.unknown(Symbol::Shift(index))?;
                 Motion::translation(scaled(&constant(&axis.sphere.at[0]), &way)).then_after(&over(&axis.home))
             }
             SpacePair::Revolute(axis) => {
-                let (cos, sin) = (self.unknown(Symbol::Cosine(number_of))?, self.unknown(Symbol::Sine(number_of))?);
+                let (cos, sin) = (self.unknown(Symbol::Cosine(index))?, self.unknown(Symbol::Sine(index))?);
                 let square = dot(&axis.sphere.at[0], &axis.sphere.at[0]);
                 // The sine is that of the angle over the length of the axis.
                 let circle = cos.mul(&cos).add(&sin.mul(&sin).mul(&number(&square))).sub(&Equation::one());

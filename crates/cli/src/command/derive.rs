@@ -196,17 +196,17 @@ pub fn with_symbols(
     Ok(Exit::NotProved)
 }
 
-/// Returns the exit code of a linkage in space or on the sphere whose numbers are exact or not.
+/// Returns the exit code of a linkage in space or on the sphere whose numbers are exact or not: a group without a real root has no real
+/// assembly.
 pub fn exit_of_ring(derivation: &RingDerivation, is_exact: bool) -> Exit {
-    match derivation.polynomials.first() {
-        Some(best) if best.distinct.is_some() && is_exact => {
-            if best.real_roots() > 0 {
-                Exit::Complete
-            } else {
-                Exit::Unreachable
-            }
-        }
-        _ => Exit::NotProved,
+    let groups = &derivation.polynomials;
+    let is_proved = derivation.warnings.is_empty() && groups.iter().all(|one| one.distinct.is_some());
+    if !(is_proved && is_exact) {
+        Exit::NotProved
+    } else if groups.iter().all(|one| one.real_roots() > 0) {
+        Exit::Complete
+    } else {
+        Exit::Unreachable
     }
 }
 

@@ -107,7 +107,7 @@ pub fn derive(options: &DeriveOptions, mechanism: &str, file: &SphereFile) -> Re
         };
         return discriminant::run(options, mechanism, &asked, names);
     }
-    let names = options.symbolic.as_ref().map(|list| symbols::names(list)).unwrap_or_default();
+    let names = options.symbolic.as_deref().map(symbols::names).unwrap_or_default();
     let is_given = |name: &String| {
         let is_named = |joint: usize| file.linkage.joints[joint].name == *name;
         case.given.iter().any(|one| one.joint.is_some_and(is_named))
