@@ -319,7 +319,9 @@ pub(super) fn part_on_sphere(linkage: &SphereLinkage, given: &[SphereGiven]) -> 
     for (joint, axis) in system.axes.iter().enumerate() {
         for (k, c) in axis.iter().enumerate() {
             let own = (0..system.unknowns).find(|unknown| *c == Equation::variable(*unknown));
-            own.into_iter().for_each(|unknown| symbols[unknown] = Symbol::Axis(joint, k));
+            if let Some(unknown) = own {
+                symbols[unknown] = Symbol::Axis(joint, k);
+            }
         }
     }
     let rotations = sphere::rotations(&system, &system.axes);
