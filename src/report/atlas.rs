@@ -1,7 +1,7 @@
 //! The text of a `.eqs` file: closure equations and closure polynomial of an entry, where they fit two pages; and whether
 //! a file that is there is that text.
 
-use super::linkage_derivation::tangent;
+use super::linkage_derivation::{self, tangent};
 use super::ring_derivation::{self, Named};
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::text::{Format, Names};
@@ -12,6 +12,7 @@ use crate::derivation::{
     RingDerivation, derive_in_space, derive_linkage, derive_on_sphere, platform_equations, transfer,
 };
 use crate::error::{Error, Result};
+use crate::kinematics::linkage::Accuracy;
 use crate::sweep::derive_any;
 use rug::Rational;
 use std::fmt::Write;
@@ -68,13 +69,18 @@ pub fn atlas(entry: &Entry) -> Result<Option<String>> {
     Ok(Some(text))
 }
 
-/// As [`atlas`], of a linkage in space or on the sphere too.
+/// As [`atlas`], of a linkage too.
 ///
 /// # Errors
-/// As [`atlas`], and for linkages in the plane and files of other kinds.
+/// As [`atlas`], and for files of other kinds.
 pub fn page(any: &Any) -> Result<Option<String>> {
     let (heading, is_rounded, (equations, polynomial)) = match any {
         Any::Entry(entry) => return atlas(entry),
+        Any::Linkage(file) if !file.cases.is_empty() => {
+            let found = derive_linkage(&file.linkage, &file.cases[0].given)?;
+            let page = linkage_derivation::page(file, &found);
+            (&file.heading, file.accuracy(&file.cases[0]) != Accuracy::Exact, page)
+        }
         Any::Space(file) if !file.cases.is_empty() => {
             let found = derive_in_space(&file.linkage, &file.cases[0].given)?;
             (
@@ -174,8 +180,8 @@ pub fn row(entry: &Entry, name: &str, has_page: bool) -> String {
 
 /// The row of a linkage in the plane: the closure polynomial of least degree.
 #[must_use]
-pub fn linkage_row(file: &LinkageFile, name: &str) -> String {
-    row_of(name, &file.heading.title, "`derive`", || {
+pub fn linkage_row(file: &LinkageFile, name: &str, has_page: bool) -> String {
+    row_of(name, &file.heading.title, &linked(name, has_page), || {
         let case = file.cases.first().ok_or("no case")?;
         let derivation = derive_linkage(&file.linkage, &case.given).map_err(|error| reason(&error))?;
         let best = derivation.polynomials.first().ok_or("no closure polynomial")?;

@@ -205,15 +205,38 @@ pub fn completed(file: &LinkageFile, case: usize, own: Value) -> Value {
     document
 }
 
+/// The closure equations with their names.
+fn cycles(file: &LinkageFile, derivation: &LinkageDerivation) -> Vec<(String, String)> {
+    let names: Vec<String> = derivation.variables.iter().map(|one| symbol(file, *one)).collect();
+    let equations = derivation.equations.iter().enumerate().map(|(k, equation)| {
+        let half = if k % 2 == 0 { "x" } else { "y" };
+        (format!("cycle {}, {half}", k / 2 + 1), written(equation, &names))
+    });
+    equations.collect()
+}
+
+/// The closure equations as a page, and the closure polynomial behind them.
+pub(super) fn page(file: &LinkageFile, derivation: &LinkageDerivation) -> (String, Option<String>) {
+    let mut text =
+        "# c and s are the cosine and the sine of the angle of a body, d is the displacement of a joint\n".to_owned();
+    for (name, equation) in cycles(file, derivation) {
+        let _ = write!(text, "\n{name}\n  {equation}\n");
+    }
+    let last = derivation.polynomials.first().map(|best| {
+        let name = tangent(file, best.body);
+        let degree = best.coefficients.degree().unwrap_or(0);
+        let further = if best.is_proved() { "" } else { ", with further roots" };
+        let own = written(&univariate(&best.coefficients), std::slice::from_ref(&name));
+        format!("\nclosure polynomial of degree {degree} in {name}{further}: {}\n  {own}\n", meaning(file, best))
+    });
+    (text, last)
+}
+
 /// The derivation of a case, its number counted from 1, as one document.
 #[must_use]
 pub fn json(file: &LinkageFile, case: usize, derivation: &LinkageDerivation) -> Value {
     let mut document = document(file, case);
-    let names: Vec<String> = derivation.variables.iter().map(|one| symbol(file, *one)).collect();
-    let equations = derivation.equations.iter().enumerate().map(|(k, equation)| {
-        let half = if k % 2 == 0 { "x" } else { "y" };
-        json!({ "name": format!("cycle {}, {half}", k / 2 + 1), "text": written(equation, &names) })
-    });
+    let equations = cycles(file, derivation).into_iter().map(|(name, text)| json!({ "name": name, "text": text }));
     document["verdict"] = json!(verdict(file, derivation));
     document["equations"] = equations.collect();
     document["steps"] = json!(steps(file, derivation));
@@ -262,13 +285,11 @@ pub fn json(file: &LinkageFile, case: usize, derivation: &LinkageDerivation) -> 
 pub fn text(file: &LinkageFile, case: &LinkageCase, number: usize, derivation: &LinkageDerivation) -> String {
     let mut text = format!("{}, case {number}: {}\n", file.heading.title, asked(&file.linkage, &case.given));
     paragraph(&mut text, &verdict(file, derivation));
-    let names: Vec<String> = derivation.variables.iter().map(|one| symbol(file, *one)).collect();
     if !derivation.equations.is_empty() {
         text.push_str("\nClosure equations (= 0)\n");
     }
-    for (k, equation) in derivation.equations.iter().enumerate() {
-        let half = if k % 2 == 0 { "x" } else { "y" };
-        let _ = writeln!(text, "cycle {}, {half}:\n  {}", k / 2 + 1, written(equation, &names));
+    for (name, equation) in cycles(file, derivation) {
+        let _ = writeln!(text, "{name}:\n  {equation}");
     }
     text.push_str("\nElimination\n");
     for step in steps(file, derivation) {

@@ -35,7 +35,7 @@ pub fn table(paths: &[String]) -> std::result::Result<Exit, Fault> {
         let has_page = path.with_extension("eqs").exists();
         match load_solvable(&file, &Options::default()) {
             Ok(Any::Entry(entry)) => print(&row(&entry, &name, has_page))?,
-            Ok(Any::Linkage(file)) => print(&linkage_row(&file, &name))?,
+            Ok(Any::Linkage(file)) => print(&linkage_row(&file, &name, has_page))?,
             Ok(Any::Sphere(file)) => print(&sphere_row(&file, &name, has_page))?,
             Ok(Any::Space(file)) => print(&space_row(&file, &name, has_page))?,
             // Frameworks and other files have no closure polynomial.

@@ -61,7 +61,7 @@ pub fn run(options: &CheckOptions) -> Result<Exit, Fault> {
 
 /// Checks whether the equations beside a file, if there are any, are those derived from it.
 fn page(name: &str, is_library: bool, any: &Any) -> Result<Option<Finding>, Error> {
-    if !matches!(any, Any::Entry(_) | Any::Space(_) | Any::Sphere(_)) {
+    if !matches!(any, Any::Entry(_) | Any::Linkage(_) | Any::Space(_) | Any::Sphere(_)) {
         return Ok(None);
     }
     let path = Path::new(name).with_extension("eqs");
