@@ -73,6 +73,17 @@ def discriminant(a, n, c, coupler_squared=0, radius_squared=None, offset_squared
     return across - offset_squared * one * one if offset_squared is not None else coupler_squared * one * one - across
 
 
+def real_roots(polynomial):
+    """The number of distinct real roots, by Sturm's theorem."""
+    chain = [polynomial, polynomial.derivative()]
+    while chain[-1] != 0:
+        chain.append(-(chain[-2] % chain[-1]))
+    # The signs of the chain far out to one side.
+    ends = lambda side: [p[p.degree()] * side ** p.degree() for p in chain[:-1]]
+    changes = lambda signs: sum(a * b < 0 for a, b in zip(signs, signs[1:]))
+    return changes(ends(-1)) - changes(ends(1))
+
+
 def swept(system, data, claim, modes, item, *others):
     """The branches over a full turn of the input."""
     is_one = isinstance(system, FourBar) and item["kind"] == "discriminant" and not others
@@ -83,10 +94,10 @@ def swept(system, data, claim, modes, item, *others):
     require(own.degree() == 4, "proof: discriminant: it has a root at half a turn of the input, or is 0")
     # Without limit positions nothing else would tell these data from others.
     require(items(polynomial) == [*map(str, own.coeffs())], "proof: discriminant: that of the data is another one")
-    roots = [order for root, order in own.complex_roots() if root.imag == 0]
-    require(all(order == 1 for order in roots), "proof: discriminant: a real root is a multiple one")
+    roots = real_roots(own)
+    require(real_roots(own.gcd(own.derivative())) == 0, "proof: discriminant: a real root is a multiple one")
     limits = items(claim["limits"])
-    require(len(limits) == len(roots), f"claim: {len(limits)} limit positions, where the discriminant has {len(roots)} real roots")
+    require(len(limits) == roots, f"claim: {len(limits)} limit positions, where the discriminant has {roots} real roots")
     end = -arb.pi()
     for at, limit in enumerate(limits, 1):
         centre, radius = map(decimal, fields(limit, ("centre", "radius")))
@@ -96,8 +107,8 @@ def swept(system, data, claim, modes, item, *others):
         require(value(own, low) * value(own, high) < 0, f"limit {at}: no root of the discriminant is proved within the radius")
         end = high
     # Without limit positions two branches close in themselves, or there are none.
-    circuits = len(roots) // 2 or (2 if own[4] > 0 else 0)
-    branches = len(roots) or circuits
+    circuits = roots // 2 or (2 if own[4] > 0 else 0)
+    branches = roots or circuits
     return {"status": "complete" if branches else "unreachable", "branches": branches, "circuits": circuits, "limits": limits}
 
 
