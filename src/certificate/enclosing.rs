@@ -39,8 +39,16 @@ pub(super) trait Enclosing: Field {
     /// Neither changes by more than `r exp(|im| + r)` within the radius r.
     fn cos_sin_about((re, im): &(Rational, Rational), radius: f64) -> (Self, Self) {
         let bits = Self::BITS + GUARD;
-        let (re, im) = (Float::with_val(bits, re), Float::with_val(bits, im));
         let up = |x: Float| Float::with_val_round(BOUND, x, Round::Up).0;
+        // Where a cosine is nearly 0, the rounding of its argument is large beside it.
+        let rounded = |q: &Rational| {
+            let (x, order) = Float::with_val_round(bits, q, Round::Nearest);
+            let error = if order.is_eq() { 0.0 } else { (up(x.clone().abs()) >> bits).to_f64_round(Round::Up) };
+            (x, error)
+        };
+        let ((re, of_re), (im, of_im)) = (rounded(re), rounded(im));
+        let error = of_re + of_im;
+        let radius = if error > 0.0 { (radius + error.next_up()).next_up() } else { radius };
         let growth = up(up(up(im.clone().abs()) + radius) + 1e-3_f64).exp();
         let off = if radius == 0.0 { 0.0 } else { (up(growth) * radius).to_f64_round(Round::Up).next_up() };
         let (sin, cos) = re.sin_cos(Float::new(bits));
@@ -110,4 +118,21 @@ pub(super) fn near_inverse<S: Enclosing, const N: usize>(matrix: &[[S; N]; N]) -
         }
     }
     Some(right)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rug::float::Constant;
+
+    #[test]
+    fn a_cosine_beside_a_right_angle_lies_in_its_ball() {
+        let quarter = Float::with_val(1024, Constant::Pi) / 2_u32;
+        let beside =
+            quarter - Float::with_val(1024, 10).recip().square() * Float::with_val(1024, Float::i_exp(1, -400));
+        let angle = beside.to_rational().unwrap_or_default();
+        let truth = Float::with_val(2048, &angle).cos();
+        let (cos, _) = Ball::<384>::cos_sin_about(&(angle, Rational::new()), 0.0);
+        assert!(cos.overlaps(&Ball::point(&truth, &Float::new(53))));
+    }
 }

@@ -277,5 +277,6 @@ fn is_positive(discriminant: &Univariate<Rational>, angle: &Rational) -> Option<
         value = value.mul(&sin).add(&power.mul(&Ball::from_rational(c)?));
         power = power.mul(&cos);
     }
-    (value.at_least() > 0.0).then(|| value.is_right())
+    // Not by a bound in f64, which small mechanisms underflow.
+    (!value.contains_zero()).then(|| value.is_right())
 }
