@@ -10,9 +10,9 @@ use std::time::{Duration, Instant};
 const SECTIONS: usize = 255;
 
 /// The longest time of a row. Without optimisation the slowest one, 6.11, takes 54 s on two cores at 3 GHz; a busy machine takes
-/// twice that.
+/// twice that. Optimized, the slowest one, 17.12, takes 7 s, and took 20.2 s beside two compilers and other tests.
 fn limit() -> Duration {
-    Duration::from_secs(if env!("OPT_LEVEL") == "0" { 120 } else { 20 })
+    Duration::from_secs(if env!("OPT_LEVEL") == "0" { 120 } else { 40 })
 }
 
 /// A row of the table.
