@@ -313,10 +313,13 @@ fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily]
     }
 }
 
+/// Bits of an angle before it is listed in f64.
+const ANGLE_BITS: u32 = 80;
+
 /// The complex angle of a rotation: `-i log z`, real where z is on the unit circle.
 fn angle(turn: &Number, is_real: bool) -> Coordinate {
     let (re, im) = (&turn.z.disc.re, &turn.z.disc.im);
-    let angle = Float::with_val(re.prec(), im.atan2_ref(re)).to_f64();
+    let angle = Float::with_val(ANGLE_BITS, im.atan2_ref(re)).to_f64();
     // The half turn is pi and not -pi.
     let angle = if angle <= -std::f64::consts::PI { std::f64::consts::PI } else { angle };
     let growth = if is_real { 0.0 } else { -Float::with_val(re.prec(), re.hypot_ref(im)).ln().to_f64() };
@@ -353,6 +356,10 @@ fn mode(linkage: &Linkage, state: &State) -> LinkageMode {
             radius = radius.max(value.disc.radius().to_f64());
         }
         bodies.push((clean(angle(&place.turn, state.real)), coordinates(&place.origin).map(clean)));
+    }
+    // The ground is not off itself by the last bits, which would decide the order of modes.
+    if let Some(ground) = bodies.get_mut(linkage.ground) {
+        *ground = (Complex::default(), <[Coordinate; 2]>::default());
     }
     let open = linkage.joints.iter().filter(|joint| matches!(joint.pair, Pair::Revolute)).map(|joint| {
         let point = |k: usize| state.bodies[joint.of[k]].1.apply(&number(&joint.at[k]));

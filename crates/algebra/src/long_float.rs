@@ -3,11 +3,13 @@
 //! Their operations are calls, which take a small part of an operation: in place they are a kilobyte of machine code each.
 
 use super::ring::{Field, Ring};
-use rug::{Integer, Rational, integer::Order};
+use rug::{Float, Integer, Rational, integer::Order};
 use std::cmp::Ordering;
 
 /// Numbers of 384 bits.
 pub type LongFloat = LongNumber<6>;
+/// Numbers of 512 bits, as discs have them.
+pub type DiscFloat = LongNumber<8>;
 /// Numbers of 960 bits.
 pub type LongerFloat = LongNumber<15>;
 
@@ -54,6 +56,34 @@ impl<const LIMBS: usize> LongNumber<LIMBS> {
     #[must_use]
     pub fn shifted(self, k: i32) -> Self {
         if self.is_zero() { self } else { Self { exponent: self.exponent + k, ..self } }
+    }
+
+    /// Returns `n 2^exponent`, cut off.
+    fn of_integer(n: Integer, exponent: i32) -> Option<Self> {
+        let negative = n.is_negative();
+        let length = i32::try_from(n.significant_bits()).ok()?;
+        if length == 0 {
+            return Some(Self::ZERO);
+        }
+        let excess = length - i32::try_from(Self::BITS).ok()?;
+        let mut limbs = [0; LIMBS];
+        (n.abs() >> excess).write_digits(&mut limbs, Order::Lsf);
+        Some(Self { limbs, exponent: exponent + length, negative })
+    }
+
+    /// Returns a number of MPFR, cut off; `None` for infinities and NaN.
+    #[must_use]
+    pub fn of_float(x: &Float) -> Option<Self> {
+        let (n, exponent) = x.to_integer_exp()?;
+        Self::of_integer(n, exponent)
+    }
+
+    /// Returns the number as one of MPFR with as many bits.
+    #[must_use]
+    pub fn to_float(self) -> Float {
+        let places = self.exponent.saturating_sub_unsigned(Self::BITS);
+        let size = Float::with_val(Self::BITS, Integer::from_digits(&self.limbs, Order::Lsf)) << places;
+        if self.negative { -size } else { size }
     }
 
     /// Returns the sum of two numbers of one sign, the first one not the smaller in exponent.
@@ -235,10 +265,7 @@ impl<const LIMBS: usize> Ring for LongNumber<LIMBS> {
         let shift = bits + 1 + bottom - top;
         let size = Integer::from(q.numer().abs_ref()) << shift.max(0);
         let quotient = size / (q.denom().clone() << (-shift).max(0));
-        let excess = length(&quotient)? - bits;
-        let mut limbs = [0; LIMBS];
-        (quotient >> excess).write_digits(&mut limbs, Order::Lsf);
-        Some(Self { limbs, exponent: bits + excess - shift, negative: q.is_negative() })
+        Self::of_integer(if q.is_negative() { -quotient } else { quotient }, -shift)
     }
     fn from_integer(n: i32) -> Self {
         Self::from(f64::from(n))
@@ -325,6 +352,9 @@ mod tests {
         fn every_operation_is_right_to_the_bound(a in number(), b in number()) {
             operations_are_right::<6>(&a, &b)?;
             operations_are_right::<15>(&a, &b)?;
+            let long = LongFloat::from_rational(&a).unwrap();
+            prop_assert_eq!(LongFloat::of_float(&long.to_float()), Some(long));
+            prop_assert_eq!(&long.to_float().to_rational().unwrap(), &exact(long));
         }
 
         #[test]
@@ -333,6 +363,8 @@ mod tests {
             prop_assert_eq!(&exact(long), &Rational::from_f64(x).unwrap());
             // Subnormal numbers lose digits on the way back.
             prop_assert!(long.to_f64() == x || x.abs() < f64::MIN_POSITIVE);
+            prop_assert!(long.to_float() == x);
+            prop_assert_eq!(LongFloat::of_float(&Float::with_val(53, x)), Some(long));
         }
     }
 
