@@ -2,6 +2,7 @@
 
 mod again;
 mod command;
+mod long_numbers;
 
 use clap::Parser;
 use command::Arguments;
@@ -15,6 +16,8 @@ use std::process::ExitCode;
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 fn main() -> ExitCode {
+    #[cfg(not(target_family = "wasm"))]
+    long_numbers::share_allocator();
     run().into()
 }
 
