@@ -169,7 +169,8 @@ impl<'a> PoseRows<'a> {
         let typed = Tolerance { length: least(true), angle: least(false) * factor };
         let mut case = of_design(self.design, placement, line);
         case.warnings.extend(warning);
-        Some(Case { typed: (!self.are_doubles).then_some(typed), ..case })
+        case.typed = (!self.are_doubles).then_some(typed);
+        Some(case)
     }
 
     /// Reads an object that holds nothing but a pose in plain decimals, without a tree of its values.

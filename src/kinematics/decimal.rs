@@ -2,14 +2,19 @@
 
 use crate::algebra::double_double::DoubleDouble;
 use crate::algebra::number::Number;
-use crate::algebra::ring::{Field, Ring};
+use crate::algebra::ring::Ring;
 use rug::Rational;
 use rug::ops::Pow;
 
 /// Largest number of digits: all of them fit in a machine word.
 const MOST_DIGITS: usize = 18;
-/// Powers of ten up to this one are doubles.
-const EXACT_POWER: i32 = 22;
+/// The powers of ten that are doubles.
+const POWERS: [f64; 23] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20,
+    1e21, 1e22,
+];
+/// Exponents up to this size are two of these powers.
+const LARGEST: i32 = 44;
 
 /// The number `digits * 10^exponent`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -53,8 +58,9 @@ impl Decimal {
             }
             exponent += own.parse::<i32>().ok()?;
         }
-        let is_near = (-2 * EXACT_POWER..=2 * EXACT_POWER).contains(&exponent);
-        is_near.then_some(Self { digits: if is_negative { -digits } else { digits }, exponent })
+        (-LARGEST..=LARGEST)
+            .contains(&exponent)
+            .then_some(Self { digits: if is_negative { -digits } else { digits }, exponent })
     }
 
     /// The number times a power of ten.
@@ -85,20 +91,22 @@ impl Decimal {
     /// The number in twice the digits of a double.
     #[must_use]
     pub fn double_double(self) -> DoubleDouble {
-        let whole = whole(self.digits);
-        let mut left = self.exponent.abs();
-        let mut power = DoubleDouble::one();
+        let mut own = whole(self.digits);
+        let mut left = self.exponent.unsigned_abs() as usize;
         while left > 0 {
-            let step = left.min(EXACT_POWER);
-            power = power.mul(&DoubleDouble::from(10_f64.powi(step)));
+            let step = left.min(POWERS.len() - 1);
+            let power = POWERS[step];
+            own = if self.exponent < 0 { own.divided_by(power) } else { own.mul(&DoubleDouble::from(power)) };
             left -= step;
         }
-        if self.exponent < 0 { power.inverse().map_or(whole, |part| whole.mul(&part)) } else { whole.mul(&power) }
+        own
     }
 }
 
 /// Doubles that are the nearest ones to decimals of this many places stand for these; all of them up to 9 km are told apart.
 const PLACES: i32 = 12;
+/// One over the last of these places.
+const SCALE: f64 = 1e12;
 /// Whole numbers below this are doubles.
 const WHOLE: f64 = 9_007_199_254_740_992.0;
 /// Doubles of other sizes, 0 apart, are left to the reader of text, which bounds them.
@@ -119,10 +127,9 @@ impl Plain {
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "a whole number below 2^53")]
     pub fn of_double(x: f64) -> Option<Self> {
-        let scale = 10_f64.powi(PLACES);
-        let digits = (x * scale).round();
+        let digits = (x * SCALE).round();
         // The quotient of two doubles is rounded once.
-        if digits.abs() < WHOLE && digits / scale == x {
+        if digits.abs() < WHOLE && digits / SCALE == x {
             return Some(Self::Typed(Decimal { digits: digits as i64, exponent: -PLACES }));
         }
         (COMMON.recip()..COMMON).contains(&x.abs()).then_some(Self::Double(x))

@@ -1,5 +1,6 @@
 //! JSON as equations/result.schema.json describes it: radians, lengths in metres, finite numbers only.
 
+use super::line;
 use super::model::Asked;
 use super::text::View;
 use crate::catalogue::entry::{Case, Entry, Kind};
@@ -86,6 +87,23 @@ pub struct Answer<'a> {
     pub labels: &'a [String],
     /// Which modes are listed.
     pub view: &'a View,
+}
+
+/// What the JSON of an answer and of each of its modes takes, as a rule: memory is then asked for once.
+const ANSWER_BYTES: usize = 1024;
+const MODE_BYTES: usize = 400;
+
+impl Answer<'_> {
+    /// Returns the answer as a line of text, with its end.
+    ///
+    /// # Errors
+    /// As [`super::line::append`].
+    pub fn line(&self) -> serde_json::Result<Vec<u8>> {
+        let mut text = Vec::with_capacity(ANSWER_BYTES + MODE_BYTES * self.solution.modes.len());
+        line::append(self, &mut text)?;
+        text.push(b'\n');
+        Ok(text)
+    }
 }
 
 impl Serialize for Answer<'_> {

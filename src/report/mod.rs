@@ -19,6 +19,7 @@ pub mod framework;
 pub mod histogram;
 pub mod instant;
 pub mod json;
+mod line;
 pub mod linkage;
 pub mod linkage_derivation;
 pub mod linkage_mobility;

@@ -46,6 +46,18 @@ impl DoubleDouble {
     /// Bound on the relative error of one operation.
     pub const UNIT_ROUNDOFF: f64 = 1.0 / (1_u64 << 50) as f64 / (1_u64 << 50) as f64;
 
+    /// Returns the quotient by a number of f64 other than 0: that of the leading parts, and that of what is left.
+    #[must_use]
+    #[inline]
+    pub fn divided_by(self, by: f64) -> Self {
+        let first = self.high / by;
+        let (product, error) = two_product(first, by);
+        // The leading parts agree, so that their difference is exact.
+        let second = ((self.high - product) - error + self.low) / by;
+        let (high, low) = quick_two_sum(first, second);
+        Self { high, low }
+    }
+
     /// Returns the nearest f64.
     #[must_use]
     pub fn to_f64(self) -> f64 {

@@ -12,6 +12,9 @@ use std::path::Path;
 use std::rc::Rc;
 use std::sync::Arc;
 
+/// Size of the buffer of the output, bytes: a line of JSON has three thousand, and the system is called for some twenty of them.
+const BUFFER: usize = 1 << 16;
+
 /// Standard output or a file, and whether to colour it.
 pub struct Output {
     /// The buffered writer; it has to be flushed when a reader waits.
@@ -32,7 +35,7 @@ impl Output {
     pub fn open(options: &OutputOptions, input: &str) -> Result<Self, Fault> {
         let is_terminal = options.output.is_none() && stdout().is_terminal();
         let writer: Box<dyn Write> = match &options.output {
-            None => Box::new(BufWriter::new(stdout())),
+            None => Box::new(BufWriter::with_capacity(BUFFER, stdout())),
             Some(path) => {
                 let same = |a: &Path| Some(a.canonicalize().ok()? == path.canonicalize().ok()?);
                 let fault = |message: String| Error::Io { path: path.display().to_string(), message };
@@ -40,7 +43,7 @@ impl Output {
                     return Err(fault("is the input, which is never changed".to_owned()).into());
                 }
                 let file = File::create(path).map_err(|error| fault(error.to_string()))?;
-                Box::new(BufWriter::new(file))
+                Box::new(BufWriter::with_capacity(BUFFER, file))
             }
         };
         let wanted = std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());

@@ -33,7 +33,6 @@ use looproot::internal::verdict::{Code, Proof, Status, Verdict};
 use looproot_algebra::drawn::seed_used;
 use serde_json::{Map, Value, json};
 use std::borrow::Cow;
-use std::fmt::Display;
 use std::io::Write;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -108,7 +107,7 @@ pub fn run_to(options: &SolveOptions, open: impl FnOnce() -> Result<Output, Faul
         Ok(mechanism) => {
             let listed = wanted.map(Job::Listed);
             let jobs = listed.chain((1..).zip(rows.into_iter().flatten()).map(|(number, row)| Job::Row(number, row)));
-            let lines = report.lines();
+            let lines = report.lines(options);
             let work = Work { options, entry: &entry, mechanism: &mechanism, reader, lines };
             let exit = work.solve(jobs, total, &mut report)?;
             solved = Some(Prepared::new(mechanism, demand, &entry));
@@ -157,10 +156,6 @@ fn refuse_loop(entry: &Entry) -> Result<(), Error> {
     }
 }
 
-/// What the JSON of an answer and of each of its modes takes, as a rule: memory is then asked for once.
-const ANSWER_BYTES: usize = 1024;
-const MODE_BYTES: usize = 400;
-
 /// A problem to solve.
 enum Job {
     /// A case of the file, by its index.
@@ -207,18 +202,24 @@ struct Answer {
     solution: Solution,
     /// The derivatives at each mode, if requested.
     derivatives: Option<Vec<Option<Derivatives>>>,
-    /// Its JSON, where nothing is added to it.
-    text: Option<String>,
 }
 
 impl Answer {
     fn alone(solution: Solution) -> Self {
-        Self { solution, derivatives: None, text: None }
+        Self { solution, derivatives: None }
     }
 }
 
-/// The result of a job: its case and the answer, or the error of the row.
-type Outcome<'a> = Result<(Cow<'a, Case>, Result<Answer, Error>), Error>;
+/// The result of a job that has a case.
+enum Done<'a> {
+    /// Its JSON, where nothing is added to it. What it was written from is gone: many results wait for their turn.
+    Line { text: Vec<u8>, status: Status, exit: Exit },
+    /// The case and the answer.
+    Answer(Box<(Cow<'a, Case>, Result<Answer, Error>)>),
+}
+
+/// The result of a job, or the error of the row.
+type Outcome<'a> = Result<Done<'a>, Error>;
 
 impl<'a> Work<'a> {
     /// Solves the jobs on all threads and reports them in order.
@@ -262,44 +263,51 @@ impl<'a> Work<'a> {
             (Job::Row(_, row), Some(reader)) => Cow::Owned(row.case(reader)?),
             (Job::Row(..), None) => return Err(Error::Invalid("a row without a table".to_owned())),
         };
-        let answer = self.answer(job.number(), &case, memory);
-        Ok((case, answer))
+        let answer = self.answer(&case, memory);
+        if let (Some(Lines { labels, view }), Ok(Answer { solution, .. })) = (&self.lines, &answer) {
+            let own = json::Answer { number: job.number(), case: &case, solution, labels, view };
+            if let Ok(text) = own.line() {
+                return Ok(Done::Line { text, status: solution.verdict.status, exit: Exit::of(solution) });
+            }
+        }
+        Ok(Done::Answer(Box::new((case, answer))))
     }
 
     /// Solves one case.
-    fn answer(&self, number: usize, case: &Case, memory: &mut (Workspace, Assembly)) -> Result<Answer, Error> {
+    fn answer(&self, case: &Case, memory: &mut (Workspace, Assembly)) -> Result<Answer, Error> {
         let roots = if self.options.real { Roots::Real } else { Roots::All };
         let solution = self.mechanism.solve(case, roots, &mut memory.0, &mut memory.1)?;
         let curve = if self.options.derivatives { Some(InputCurve::of(self.entry, case)?) } else { None };
         let derivatives = curve.map(|curve| solution.modes.iter().map(|mode| curve.derivatives(mode)).collect());
-        let text = self.lines.as_ref().and_then(|Lines { labels, view }| {
-            let mut text = Vec::with_capacity(ANSWER_BYTES + MODE_BYTES * solution.modes.len());
-            serde_json::to_writer(&mut text, &json::Answer { number, case, solution: &solution, labels, view }).ok()?;
-            String::from_utf8(text).ok()
-        });
-        Ok(Answer { solution, derivatives, text })
+        Ok(Answer { solution, derivatives })
     }
 }
 
 /// Reports one job, and returns its exit code.
 fn report_one(report: &mut Report<'_>, job: &Job, outcome: Outcome<'_>) -> Result<Exit, Fault> {
     let number = job.number();
-    match (outcome, job) {
+    let done = match (outcome, job) {
+        (Ok(done), _) => done,
         (Err(error), Job::Row(_, row)) => {
             report.refuse(number, row.line, &error)?;
-            Ok(Exit::Misuse)
+            return Ok(Exit::Misuse);
         }
-        (Ok((case, Err(error))), _) if error.unsupported().is_some() => {
-            let answer = Answer::alone(unsupported(&error));
-            report.add(number, &case, &answer)?;
-            Ok(Exit::of(&answer.solution))
+        (Err(error), Job::Listed(_)) => return Err(error.into()),
+    };
+    let (case, answer) = match done {
+        Done::Line { text, status, exit } => {
+            report.write_line(&text)?;
+            report.count(status);
+            return Ok(exit);
         }
-        (Err(error), Job::Listed(_)) | (Ok((_, Err(error))), _) => Err(error.into()),
-        (Ok((case, Ok(answer))), _) => {
-            report.add(number, &case, &answer)?;
-            Ok(Exit::of(&answer.solution))
-        }
-    }
+        Done::Answer(own) => *own,
+    };
+    let answer = match answer {
+        Err(error) if error.unsupported().is_some() => Answer::alone(unsupported(&error)),
+        answer => answer?,
+    };
+    report.add(number, &case, &answer)?;
+    Ok(Exit::of(&answer.solution))
 }
 
 /// Returns a flag raised by the first Ctrl-C, so that finished results are printed; the second one ends the program at once.
@@ -441,15 +449,19 @@ impl<'a> Report<'a> {
         self.form != Form::Text
     }
 
-    /// Returns what writes an answer as JSON, where nothing else is inserted into it.
-    fn lines(&self) -> Option<Lines> {
-        let is_plain =
-            self.stage.is_none() && self.follow.is_none() && self.order.is_as_found() && self.output.document.is_none();
+    /// Returns what writes an answer as JSON, where nothing else is inserted into it and it goes nowhere else.
+    fn lines(&self, options: &SolveOptions) -> Option<Lines> {
+        let is_plain = self.stage.is_none()
+            && self.follow.is_none()
+            && self.order.is_as_found()
+            && self.output.document.is_none()
+            && self.certificates.is_none()
+            && !options.derivatives;
         (self.is_json() && is_plain).then(|| Lines { labels: self.labels.clone(), view: self.view })
     }
 
     fn add(&mut self, number: usize, case: &Case, answer: &Answer) -> Result<(), Fault> {
-        let Answer { solution, derivatives, text } = answer;
+        let Answer { solution, derivatives } = answer;
         let derivatives = derivatives.as_deref();
         if let Some(certificates) = &mut self.certificates {
             certificates.add(self.entry, number, case, solution)?;
@@ -489,18 +501,19 @@ impl<'a> Report<'a> {
                 self.output.writer.write_all(text.as_bytes())?;
             }
             Form::Document | Form::Lines => {
-                if let Some(text) = text.as_ref().filter(|_| derivatives.is_none()) {
-                    self.write(text)?;
-                } else {
-                    let document = document();
-                    self.write_value(document)?;
-                }
+                let document = document();
+                self.write_value(document)?;
             }
         }
-        self.written += 1;
-        self.tally[solution.verdict.status as usize] += 1;
-        self.progress.inc(1);
+        self.count(solution.verdict.status);
         Ok(())
+    }
+
+    /// Counts an answer that was written.
+    fn count(&mut self, status: Status) {
+        self.written += 1;
+        self.tally[status as usize] += 1;
+        self.progress.inc(1);
     }
 
     /// Writes an element of the list of results, or keeps it for a document that is read at once.
@@ -509,23 +522,24 @@ impl<'a> Report<'a> {
             self.results.push(value);
             return Ok(());
         }
-        self.write(&value)
+        self.write_line(format!("{value}\n").as_bytes())
     }
 
-    /// Writes an element of the list of results.
-    fn write(&mut self, value: &impl Display) -> Result<(), Fault> {
+    /// Writes an element of the list of results, a line of JSON.
+    fn write_line(&mut self, line: &[u8]) -> Result<(), Fault> {
         let out = &mut self.output.writer;
-        match self.form {
-            Form::Document if self.written == 0 => {
-                write!(out, "{}\n  {value}", json::head(self.entry, &self.keys))?;
+        match (self.form, &self.stage) {
+            (Form::Document, _) => {
+                let before = if self.written == 0 { json::head(self.entry, &self.keys) } else { ",".to_owned() };
+                write!(out, "{before}\n  ")?;
+                out.write_all(line.trim_ascii_end())?;
             }
-            Form::Document => write!(out, ",\n  {value}")?,
-            Form::Lines | Form::Text => {
+            (Form::Lines | Form::Text, stage) => {
                 // The first line holds the data common to all lines.
-                if let (Some(_), 0) = (&self.stage, self.written) {
+                if stage.is_some() && self.written == 0 {
                     writeln!(out, "{}", json::line_of_document(self.entry, &self.keys))?;
                 }
-                writeln!(out, "{value}")?;
+                out.write_all(line)?;
             }
         }
         Ok(())
