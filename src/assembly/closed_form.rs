@@ -21,9 +21,9 @@ use std::cell::LazyCell;
 /// their place, so that it is smaller.
 pub type Crowded = LongNumber<{ if cfg!(target_arch = "wasm32") { 6 } else { 3 } }>;
 /// A loop of exact constants, rounded once.
-type Exact = ClosedLoop<DoubleDouble>;
+pub(super) type Exact = ClosedLoop<DoubleDouble>;
 /// The same, made where it is first asked for.
-type Lazy<'a> = LazyCell<Option<Exact>, &'a dyn Fn() -> Option<Exact>>;
+pub(super) type Lazy<'a> = LazyCell<Option<Exact>, &'a dyn Fn() -> Option<Exact>>;
 /// No constants but those that are stored.
 pub(super) const STORED: &dyn Fn() -> Option<Exact> = &|| None;
 

@@ -2,6 +2,7 @@
 
 mod all_list;
 mod axis_triples;
+mod beside_families;
 mod closed_form;
 mod few_revolutes;
 mod high_precision;

@@ -722,7 +722,7 @@ fn is_crowded(unresolved: &[Six<Complex<f64>>], unknowns: &Six<Complex<f64>>) ->
 }
 
 /// Returns whether two self-motions are one: curves that share a point, or surfaces along which the same unknowns move.
-fn is_same(closed: &ClosedLoop<f64>, known: &SelfMotion, other: &SelfMotion) -> bool {
+pub(super) fn is_same(closed: &ClosedLoop<f64>, known: &SelfMotion, other: &SelfMotion) -> bool {
     if known.dimension > 1 || other.dimension > 1 {
         return known.dimension == other.dimension && known.moving == other.moving;
     }

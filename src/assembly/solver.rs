@@ -484,7 +484,7 @@ impl Solver {
     }
 
     /// Returns a search that has not begun.
-    fn searched<'a>(
+    pub(super) fn searched<'a>(
         &'a self,
         gap: &Gap,
         closed: &'a ClosedLoop<f64>,
@@ -554,7 +554,7 @@ impl Solver {
     }
 
     /// Sorts the modes and converts them to the unit of the mechanism.
-    fn finish(&self, assembly: &mut Assembly) {
+    pub(super) fn finish(&self, assembly: &mut Assembly) {
         assembly.modes.sort_by(|a, b| {
             b.real.cmp(&a.real).then_with(|| {
                 let key = |m: &Mode| m.unknowns.map(|z| (z.re, z.im));

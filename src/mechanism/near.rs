@@ -1,6 +1,7 @@
 //! Configurations that reach a pose within the tolerance but not exactly. A pose that is typed is rounded, and a singular pose is
 //! lost by rounding: a double solution becomes a complex pair, and a self-motion becomes a few isolated solutions.
 
+use crate::assembly::wrapped;
 use crate::kinematics::chain::{Chain, Placement};
 use crate::kinematics::closed_loop::{ClosedLoop, Layout, Variable};
 use crate::kinematics::motion::Motion;
@@ -10,7 +11,6 @@ use crate::solve::newton::{Six, approach};
 use crate::solve::self_motion::{SelfMotion, nearest, self_motions};
 use crate::solve::singular::spread;
 use num_complex::Complex;
-use std::f64::consts::PI;
 
 /// An arm at a pose, and what of it is looked at.
 pub(super) struct Neighbourhood<'a> {
@@ -83,12 +83,13 @@ impl Neighbourhood<'_> {
         }
         let (real, complex): (Vec<&Start>, Vec<&Start>) = solutions.iter().partition(|start| start.is_real);
         let is_bad = |start: &&&Start| !(start.condition < CONDITION / within);
-        let bad = real.iter().filter(is_bad);
+        let bad: Vec<&Start> = real.iter().filter(is_bad).copied().collect();
+        let middles = self.middles(&bad);
         // A solution of order k splits by the k-th root of what it misses; orders above 4 are not looked for.
         let widest = (10.0 * within.powf(0.25)).min(IMAGINARY);
         let imaginary = |start: &Start| start.unknowns.iter().map(|z| z.im.abs()).fold(0.0, f64::max);
         let split = complex.iter().filter(|start| imaginary(start) < widest);
-        for start in bad.chain(split).take(MOST_STARTS) {
+        for start in middles.iter().chain(bad).chain(split.copied()).take(MOST_STARTS) {
             let Some(point) = nearest(self.closed, &start.unknowns.map(|z| z.re), within) else { continue };
             let holds = |family: &SelfMotion| family.holds(self.closed, &point, within);
             if families.iter().chain(near.families.iter().map(|(family, _)| family)).any(holds) {
@@ -123,6 +124,24 @@ impl Neighbourhood<'_> {
         }
         self.rest_spherical(&real, &mut near);
         near
+    }
+
+    /// The middles of pairs of solutions that are one but for rounding. Where two singular positions meet, rounding splits the solution
+    /// by its root in one of them, and so leaves the other one by as much; the middle has lost the square of that only.
+    fn middles(&self, bad: &[&Start]) -> Vec<Start> {
+        let mut found = Vec::new();
+        for (k, one) in bad.iter().enumerate() {
+            for other in &bad[..k] {
+                let way: Six<f64> = std::array::from_fn(|j| {
+                    let off = other.unknowns[j].re - one.unknowns[j].re;
+                    if self.closed.variables[j] == Variable::Rotation { wrapped(off) } else { off }
+                });
+                if way.iter().all(|x| x.abs() < SAME) {
+                    found.push(Start { unknowns: std::array::from_fn(|j| one.unknowns[j] + way[j] / 2.0), ..**one });
+                }
+            }
+        }
+        found
     }
 
     /// Takes the families along which a spherical joint alone seems to turn for single configurations: where the axes of its first and
@@ -186,7 +205,7 @@ impl Neighbourhood<'_> {
     fn admit_mode(&self, point: &Six<f64>, real: &[&Start], near: &mut Near) {
         let apart = |other: &Six<f64>| {
             let difference = |k: usize| match self.closed.variables[k] {
-                Variable::Rotation => (other[k] - point[k] + PI).rem_euclid(2.0 * PI) - PI,
+                Variable::Rotation => wrapped(other[k] - point[k]),
                 Variable::Translation => other[k] - point[k],
             };
             (0..6).map(|k| difference(k).abs()).fold(0.0, f64::max) > SAME

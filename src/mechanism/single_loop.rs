@@ -1,6 +1,8 @@
 //! Arms and loops of seven joint variables: one loop of six unknowns for each choice of the locked variable.
 
+mod closed_form;
 mod exact_roots;
+mod groups;
 mod real_list;
 
 use super::bounds::{MODULO, of_cuts, of_ring, of_triple};
@@ -17,7 +19,7 @@ use crate::algebra::enclosure::Enclosure;
 use crate::algebra::interval::Interval;
 use crate::algebra::long_float::{LongFloat, LongerFloat};
 use crate::algebra::ring::Ring;
-use crate::assembly::{Assembly, Crowded, Gap, MOST_TRIES, Mode, Roots, Rounded, Solver, Workspace, ss_dyad, wrapped};
+use crate::assembly::{Assembly, Gap, MOST_TRIES, Mode, Roots, Solver, Workspace, ss_dyad, wrapped};
 use crate::catalogue::entry::{Case, Entry, InputValue};
 use crate::elimination::coordinate_ring::Plan;
 use crate::elimination::degree::Degree;
@@ -200,22 +202,7 @@ impl SingleLoop {
         };
         let solver = &prepared.solver;
         let gap = self.gap(prepared, case)?;
-        let question = Question {
-            of: self,
-            prepared,
-            case,
-            roots,
-            leaves_fields: workspace.leaves_fields,
-            only_lists: workspace.only_lists,
-            only_real_list: workspace.only_real_list || roots == Roots::Real,
-            real_first: workspace.real_first,
-            tolerance: case.pose.is_some().then_some(tolerance),
-            gap: &gap,
-            by_cuts: OnceCell::new(),
-            ring: OnceCell::new(),
-            resolved: RefCell::new(None),
-            data: OnceCell::new(),
-        };
+        let question = self.question(prepared, case, roots, tolerance, workspace, &gap);
         let start = Instant::now();
         let mut fast = if solver.structural_rank() == 6 { Some(question.answer(workspace, assembly)) } else { None };
         let mut exact_modes = None;
@@ -266,6 +253,34 @@ impl SingleLoop {
             }
         }
         Ok(self.listed(&question, verdict, exact_modes, [*prepare_us, solve_us], assembly))
+    }
+
+    /// What is asked in one case, nothing of it computed yet.
+    fn question<'a>(
+        &'a self,
+        prepared: &'a SixUnknowns,
+        case: &'a Case,
+        roots: Roots,
+        tolerance: Tolerance,
+        workspace: &Workspace,
+        gap: &'a Gap,
+    ) -> Question<'a> {
+        Question {
+            of: self,
+            prepared,
+            case,
+            roots,
+            leaves_fields: workspace.leaves_fields,
+            only_lists: workspace.only_lists,
+            only_real_list: workspace.only_real_list || roots == Roots::Real,
+            real_first: workspace.real_first,
+            tolerance: case.pose.is_some().then_some(tolerance),
+            gap,
+            by_cuts: OnceCell::new(),
+            ring: OnceCell::new(),
+            resolved: RefCell::new(None),
+            data: OnceCell::new(),
+        }
     }
 
     /// The answer with the modes of the list, or those of the exact side in their place, and what is near the pose behind them.
@@ -572,26 +587,11 @@ impl Question<'_> {
         if let Some(verdict) = self.by_longer_numbers(workspace, assembly) {
             return self.by_exact_roots(verdict, assembly).0;
         }
-        let most = |known| {
-            if self.only_lists { self.prepared.general() } else { self.prepared.bound(&self.of.chain, known).count }
-        };
+        let most = |known| self.most(known);
         let SixUnknowns { solver, .. } = self.prepared;
-        // A closed form is as fast as real zeros, and has all solutions.
-        let enclosed = || self.prepared.enclosed(&self.of.chain, self.case).ok().flatten();
-        let exact = Rounded {
-            double: &|| enclosed()?.rounded(DoubleDouble::BITS),
-            crowded: &|| enclosed()?.rounded(Crowded::BITS),
-        };
-        if !self.only_lists && solver.solve_in_closed_form(self.gap, &most, exact, workspace, assembly) {
-            let verdict = self.judge(Roots::All, assembly);
-            if is_settled(&verdict) {
-                // The list is that of what is asked for; complex ones lead to near ones.
-                let is_listed = |mode: &&Mode| mode.real || self.roots == Roots::All;
-                let certified =
-                    assembly.modes.iter().filter(is_listed).filter(|mode| mode.certificate.is_some()).count();
-                let complex_complete = verdict.complex_complete && self.roots == Roots::All;
-                return Verdict { complex_complete, certified, ..verdict };
-            }
+        let quick = self.by_closed_form(workspace, assembly).or_else(|| self.by_groups(workspace, assembly));
+        if let Some(verdict) = quick {
+            return verdict;
         }
         let is_first = self.real_first && !solver.is_decoupled();
         if self.roots == Roots::Real && self.has_real_list(workspace, assembly)

@@ -42,6 +42,11 @@ const STILL: f64 = 1e-4;
 /// known to the root of rounding.
 const DEPENDENT: f64 = 1e-5;
 
+/// Steps of the search for a crossing between two points of a curve, by the golden section: they lead from a chord of 0.2 to 1e-9.
+const CROSSING_STEPS: usize = 40;
+/// Pieces looked at for crossings: more are not known of any arm.
+const MOST_PIECES: usize = 16;
+
 /// Looks for what one loop has beside its solutions. Points close the loop within `within`, in radians and scaled lengths.
 #[derive(Debug)]
 pub struct Explorer<'a> {
@@ -96,6 +101,65 @@ impl<'a> Explorer<'a> {
                 if in_groups.is_empty() { self.around(solution, &here) } else { in_groups }
             }
         }
+    }
+
+    /// Adds the curves that cross known ones: where a curve of an arm passes another singular position, its other joints are free too.
+    pub fn add_crossing(&self, known: &mut Vec<Piece>) {
+        let mut next = 0;
+        while next < known.len().min(MOST_PIECES) {
+            for point in self.crossings(&known[next]) {
+                for other in self.pieces(&point) {
+                    let is_curve = other.dimension == 1 && other.trace.points.len() > 2;
+                    let middle = &other.trace.points[other.trace.points.len() / 2];
+                    if is_curve && !known.iter().any(|own| self.holds(own, middle)) {
+                        known.push(other);
+                    }
+                }
+            }
+            next += 1;
+        }
+    }
+
+    /// Returns the points of a curve at which the loop gives way in a direction beside that of the curve.
+    fn crossings(&self, piece: &Piece) -> Vec<Point> {
+        let points = &piece.trace.points;
+        if piece.dimension != 1 || points.len() < 3 || self.unknowns < 2 {
+            return Vec::new();
+        }
+        let curve = self.curve.unlocked(&piece.moving, self.within);
+        let values: Vec<f64> = points.iter().map(|point| self.second(point)).collect();
+        let last = points.len() - 1;
+        let mut found = Vec::new();
+        for k in 0..=last {
+            // Past the end of a closed curve, whose last point is its first one, it goes on.
+            let (before, after) = match k {
+                0 if piece.trace.is_closed => continue,
+                _ if k == last && piece.trace.is_closed => (k - 1, 1),
+                _ => (k.saturating_sub(1), (k + 1).min(last)),
+            };
+            let beside = values[before].max(values[after]);
+            // On both sides of a crossing the value grows with the distance, and a multiple curve has it small all along.
+            if !(values[k] <= values[before].min(values[after]) && values[k] < 0.75 * beside && beside > RANK) {
+                continue;
+            }
+            let chords = if after == 1 && k == last { [k - 1, 0] } else { [before, k.min(last - 1)] };
+            let at = |way: f64| {
+                let chord = usize::from(way >= 1.0);
+                piece.trace.between(&curve, chords[chord], (way - chord as f64).min(1.0))
+            };
+            let value = |way: f64| at(way).map_or(f64::INFINITY, |point| self.second(&point));
+            let least = least(value, if before == k { 1.0 } else { 0.0 }, if after == k { 1.0 } else { 2.0 });
+            found.extend(at(least).filter(|point| self.second(point) < RANK));
+        }
+        found
+    }
+
+    /// The second smallest singular value of the Jacobian of the variables that are not idle, in parts of the largest: that of a
+    /// point of a curve is 0 where another one meets it.
+    fn second(&self, at: &Point) -> f64 {
+        let mut values: Vec<f64> = self.matrix(at).singular_values().iter().copied().collect();
+        sort::by(&mut values, |a, b| b.total_cmp(a));
+        values[self.unknowns - 2] / values[0]
     }
 
     /// The real configuration nearest to closing beside this one, along which the loop gives way least; `None` where none
@@ -371,6 +435,25 @@ impl<'a> Explorer<'a> {
         }
         self.dimension_at(&here)
     }
+}
+
+/// Returns where a function of one minimum between two places has it, by the golden section.
+fn least(value: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    let part = (5.0_f64.sqrt() - 1.0) / 2.0;
+    let (mut left, mut right) = (high - part * (high - low), low + part * (high - low));
+    let (mut at_left, mut at_right) = (value(left), value(right));
+    for _ in 0..CROSSING_STEPS {
+        if at_left < at_right {
+            (high, right, at_right) = (right, left, at_left);
+            left = high - part * (high - low);
+            at_left = value(left);
+        } else {
+            (low, left, at_left) = (left, right, at_right);
+            right = low + part * (high - low);
+            at_right = value(right);
+        }
+    }
+    if at_left < at_right { left } else { right }
 }
 
 /// Returns by how many the screws outnumber the dimension of the algebra of motions that they span; `None` unless they do,

@@ -23,12 +23,15 @@ pub struct SelfMotion {
     pub is_closed: bool,
 }
 
-/// Returns the self-motions on which a real solution lies; none where it appears to be isolated. Their points close the loop
+/// Returns the self-motions on which a real solution lies, and those that meet them; none where it appears to be isolated. Their points close the loop
 /// within `within`, in radians and scaled lengths.
 #[must_use]
 pub fn self_motions(closed: &ClosedLoop<f64>, solution: &Six<f64>, within: f64) -> Vec<SelfMotion> {
     let curve = Curve::of_self_motion(closed, within);
-    Explorer::new(&curve, within).pieces(&full(solution)).into_iter().map(SelfMotion::from).collect()
+    let explorer = Explorer::new(&curve, within);
+    let mut pieces = explorer.pieces(&full(solution));
+    explorer.add_crossing(&mut pieces);
+    pieces.into_iter().map(SelfMotion::from).collect()
 }
 
 /// The real configuration nearest to closing beside this one, along which the loop gives way least; `None` where none closes

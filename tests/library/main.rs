@@ -33,6 +33,7 @@ mod printed;
 mod real_field;
 mod ring_derive;
 mod robots;
+mod singular_poses;
 mod slides;
 mod space;
 mod sphere;

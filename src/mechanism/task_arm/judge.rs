@@ -17,6 +17,8 @@ use std::f64::consts::TAU;
 const NEARLY_REAL: f64 = 1e-3;
 /// Configurations whose joints all agree so far are one: those of a double root lie apart by the root of the rounding.
 const SAME: f64 = 1e-5;
+/// Largest condition number of a solution of the conditions, times the tolerance, that is surely apart from their self-motions.
+const CONDITION: f64 = 1e-3;
 /// Rounding of a miss that was measured in f64, in parts of the reach.
 const ROUNDING: f64 = 1e-13;
 
@@ -31,14 +33,26 @@ impl TaskArm {
     ) -> Result<Solution> {
         let typed = case.typed.unwrap_or(OF_FEW).or(OF_FEW);
         let tolerance = with.tolerance.unwrap_or(typed);
+        // What is worse conditioned may be near a self-motion of the conditions that is none of the arm, and says nothing of the pose.
+        let within = tolerance.angle.max(tolerance.length / self.forward.reach().max(f64::MIN_POSITIVE));
+        let is_regular = |found: &Found| found.mode.condition < CONDITION / within;
+        for (filled, inner) in choices {
+            let Some((solution, found)) = self.by_closed_form(inner, case, pose, with)? else { continue };
+            if found.iter().all(is_regular) {
+                return Ok(self.judged(solution, found, filled, pose, tolerance));
+            }
+        }
         let mut best: Option<Solution> = None;
+        let is_answer = |own: &Solution| matches!(own.verdict.status, Status::Complete | Status::Unreachable);
         for (filled, inner) in choices {
             let (solution, found) = self.by(inner, case, pose, with)?;
+            let is_regular = found.iter().all(is_regular);
             let judged = self.judged(solution, found, filled, pose, tolerance);
-            if matches!(judged.verdict.status, Status::Complete | Status::Unreachable) {
+            if is_answer(&judged) && is_regular {
                 return Ok(judged);
             }
-            if best.as_ref().is_none_or(|best| judged.modes.len() > best.modes.len()) {
+            let rank = |own: &Solution| (own.modes.len(), is_answer(own));
+            if best.as_ref().is_none_or(|best| rank(&judged) > rank(best)) {
                 best = Some(judged);
             }
         }

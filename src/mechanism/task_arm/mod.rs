@@ -184,17 +184,46 @@ impl TaskArm {
 
     /// The solutions of a loop of six unknowns.
     fn by(&self, inner: &Inner, case: &Case, pose: &Placement, with: &mut Tools<'_>) -> Result<(Solution, Vec<Found>)> {
-        // The angle between the axes of a task with tilt is a constant of the loop: it is prepared for every pose.
-        let (own, of_pose);
-        let (solver, case) = if self.task == Task::PositionTilt {
-            of_pose = self.loop_of(inner, pose)?;
-            own = Case { pose: Some(pose.without_rotation()), ..case.clone() };
-            (&of_pose, &own)
-        } else {
-            (inner.solver.get_or_init(|| self.loop_of(inner, pose)).as_ref().map_err(Clone::clone)?, case)
-        };
         let tolerance = with.tolerance.unwrap_or_default();
-        let mut solution = solver.solve(case, with.roots, tolerance, with.workspace, with.assembly)?;
+        let solution = self.with_solver(inner, case, pose, |solver, case| {
+            solver.solve(case, with.roots, tolerance, with.workspace, with.assembly)
+        })?;
+        Ok(self.of_loop(solution, inner, pose))
+    }
+
+    /// The solutions of a loop of six unknowns by a closed form alone; `None` where that does not prove its list.
+    fn by_closed_form(
+        &self,
+        inner: &Inner,
+        case: &Case,
+        pose: &Placement,
+        with: &mut Tools<'_>,
+    ) -> Result<Option<(Solution, Vec<Found>)>> {
+        let tolerance = with.tolerance.unwrap_or_default();
+        let solution = self.with_solver(inner, case, pose, |solver, case| {
+            solver.solve_in_closed_form(case, with.roots, tolerance, with.workspace, with.assembly)
+        })?;
+        Ok(solution.map(|solution| self.of_loop(solution, inner, pose)))
+    }
+
+    /// Asks the solver of a loop of six unknowns, prepared at its first use.
+    fn with_solver<T>(
+        &self,
+        inner: &Inner,
+        case: &Case,
+        pose: &Placement,
+        ask: impl FnOnce(&SingleLoop, &Case) -> Result<T>,
+    ) -> Result<T> {
+        // The angle between the axes of a task with tilt is a constant of the loop: it is prepared for every pose.
+        if self.task == Task::PositionTilt {
+            let own = Case { pose: Some(pose.without_rotation()), ..case.clone() };
+            return ask(&self.loop_of(inner, pose)?, &own);
+        }
+        ask(inner.solver.get_or_init(|| self.loop_of(inner, pose)).as_ref().map_err(Clone::clone)?, case)
+    }
+
+    /// Returns the solution of a loop of six unknowns as one of the arm, its modes apart.
+    fn of_loop(&self, mut solution: Solution, inner: &Inner, pose: &Placement) -> (Solution, Vec<Found>) {
         let kept = self.kept(inner);
         let found =
             std::mem::take(&mut solution.modes).into_iter().map(|mode| self.of_arm(mode, &kept, inner, pose)).collect();
@@ -203,7 +232,7 @@ impl TaskArm {
             family.sample = self.assembled(&family.sample, &kept, inner);
             family.samples = family.samples.iter().map(|q| self.assembled(q, &kept, inner)).collect();
         }
-        Ok((solution, found))
+        (solution, found)
     }
 
     /// The variables that are not held, in joint order.

@@ -1,0 +1,104 @@
+//! Robots of the library at singular poses: planted joint values are found again, on a self-motion or as a solution.
+#![allow(clippy::unwrap_used)]
+
+use looproot::Arm;
+use looproot::internal::assembly::{Assembly, Roots, Workspace, wrapped};
+use looproot::internal::catalogue::entry::{Case, InputValue};
+use looproot::internal::catalogue::{Options, builtin};
+use looproot::internal::mechanism::{Mechanism, Solution};
+use looproot::internal::verdict::{Proof, Status};
+use looproot_algebra::number::{Angle, Reading};
+use std::f64::consts::FRAC_PI_2;
+
+/// Solves a robot at the pose that joint values reach.
+fn solved(name: &str, values: Vec<Angle>) -> Solution {
+    let entry = builtin(name, &Options::default()).unwrap();
+    let mechanism = Mechanism::prepare(&entry).unwrap();
+    let values: Vec<InputValue> = values.into_iter().map(InputValue::Angle).collect();
+    let case = Case::reached(entry.chain().unwrap(), &values, 1).unwrap();
+    mechanism.solve(&case, Roots::Real, &mut Workspace::default(), &mut Assembly::default()).unwrap()
+}
+
+fn degrees(values: &[f64]) -> Vec<Angle> {
+    values.iter().map(|x| Angle::parse(&format!("{x} deg"), &Reading::default()).unwrap()).collect()
+}
+
+fn apart(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(a, b)| wrapped(a - b).abs()).fold(0.0, f64::max)
+}
+
+/// Checks that everything listed reaches the pose of planted joint values, by other forward kinematics.
+fn check(name: &str, answer: &Solution, planted: &[f64]) {
+    let arm = Arm::robot(name).unwrap();
+    let pose = arm.fk(planted).unwrap();
+    let modes = answer.modes.iter().map(|mode| mode.q.iter().map(|z| z.re).collect::<Vec<f64>>());
+    let samples = answer.families.iter().flat_map(|family| &family.samples).cloned();
+    for q in modes.chain(samples) {
+        let reached = arm.fk(&q).unwrap();
+        let off = (0..12).map(|k| (reached[k / 4][k % 4] - pose[k / 4][k % 4]).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-6, "{name}: {q:?} is {off} off");
+    }
+}
+
+/// Whether joint values lie on a family in which these joints move. Samples of a curve are 0.1 apart at most.
+fn is_on_family(answer: &Solution, planted: &[f64], moving: &[usize]) -> bool {
+    answer
+        .families
+        .iter()
+        .any(|family| family.moving == moving && family.samples.iter().any(|sample| apart(sample, planted) < 0.2))
+}
+
+#[test]
+fn self_motions_of_robots_are_proved_by_the_axes_that_coincide() {
+    let (wrist, parallel): (&[usize], &[usize]) = (&[3, 5], &[1, 2, 3, 5]);
+    for (name, moving) in
+        [("irb120", wrist), ("kr10_r1100", wrist), ("gp7", wrist), ("meca500", wrist), ("ur5e", parallel)]
+    {
+        for values in [[0.0; 6], [20.0, -40.0, 35.0, 10.0, 0.0, 50.0]] {
+            let answer = solved(name, degrees(&values));
+            let verdict = &answer.verdict;
+            let found = (verdict.status, verdict.proof, verdict.self_motion);
+            let planted = values.map(f64::to_radians);
+            check(name, &answer, &planted);
+            assert!(is_on_family(&answer, &planted, moving), "{name} {values:?}: {:?}", answer.families);
+            // The home position of this robot is stretched, too.
+            if name == "ur5e" && values[2] == 0.0 {
+                continue;
+            }
+            assert_eq!(found, (Status::SelfMotion, Proof::Proved, 1), "{name} {values:?}: {}", verdict.reason);
+        }
+    }
+}
+
+#[test]
+fn a_curve_that_crosses_another_one_is_a_family_of_its_own() {
+    // The wrist centre is on the first axis, and the fourth axis in line with the sixth one.
+    let planted = [-0.276, -0.152_947_260_390_856_88, -1.057, -0.883, 0.0, -1.326];
+    let answer = solved("irb120", planted.map(Angle::from_radians).into());
+    check("irb120", &answer, &planted);
+    assert!(is_on_family(&answer, &planted, &[3, 5]), "{:?}", answer.families);
+    assert!(answer.families.iter().any(|family| family.moving == [0, 3, 4, 5]), "{:?}", answer.families);
+}
+
+#[test]
+fn a_stretched_arm_with_its_wrist_in_line_has_the_family_of_the_wrist() {
+    let planted = [1.784, 1.478, -FRAC_PI_2, -0.006, 0.0, 1.238];
+    let answer = solved("irb1600_6_120", planted.map(Angle::from_radians).into());
+    check("irb1600_6_120", &answer, &planted);
+    assert!(is_on_family(&answer, &planted, &[3, 5]), "{:?}", answer.verdict);
+}
+
+#[test]
+fn conditions_that_are_singular_at_a_pose_do_not_hide_its_solutions() {
+    // With the last joint at 0 or a half turn the tool could turn about the parallel axes, were that not a condition.
+    for values in [[-135.0, -90.0, -35.0, -70.0, 0.0], [-25.0, -60.0, 0.0, 100.0, 0.0], [0.0; 5]] {
+        let planted = values.map(f64::to_radians);
+        for values in [degrees(&values), planted.map(Angle::from_radians).into()] {
+            let answer = solved("px150", values);
+            check("px150", &answer, &planted);
+            let is_planted = |q: &[f64]| apart(q, &planted) < 1e-6;
+            let is_found = answer.modes.iter().any(|mode| is_planted(&mode.q.iter().map(|z| z.re).collect::<Vec<_>>()));
+            assert!(answer.verdict.status == Status::Complete && is_found, "{planted:?}: {:?}", answer.verdict);
+        }
+    }
+}
