@@ -4,7 +4,7 @@
 //! freedom more than its pose has conditions.
 
 use super::curve::{Curve, Point};
-use super::walk::{Trace, apart, dot, norm};
+use super::walk::{Place, Trace, apart, dot, norm, step};
 use crate::algebra::sort;
 use nalgebra::{SMatrix, SVector, Vector6};
 
@@ -42,8 +42,10 @@ const STILL: f64 = 1e-4;
 /// known to the root of rounding.
 const DEPENDENT: f64 = 1e-5;
 
-/// Steps of the search for a crossing between two points of a curve, by the golden section: they lead from a chord of 0.2 to 1e-9.
-const CROSSING_STEPS: usize = 40;
+/// Steps towards a crossing at most: each one halves the distance, or shows how far it is.
+const MOST_HALVINGS: usize = 40;
+/// A crossing this near, in parts of what counts as one, is where the value would be 0: what is left is its square.
+const NEXT_TO: f64 = 1e-2;
 /// Pieces looked at for crossings: more are not known of any arm.
 const MOST_PIECES: usize = 16;
 
@@ -139,19 +141,36 @@ impl<'a> Explorer<'a> {
             };
             let beside = values[before].max(values[after]);
             // On both sides of a crossing the value grows with the distance, and a multiple curve has it small all along.
-            if !(values[k] <= values[before].min(values[after]) && values[k] < 0.75 * beside && beside > RANK) {
-                continue;
+            if values[k] <= values[before].min(values[after]) && values[k] < 0.75 * beside && beside > RANK {
+                let beyond =
+                    |from: &usize| self.crossing(&curve, [&points[k], &points[*from]], [values[k], values[*from]]);
+                found.extend([before, after].iter().filter(|from| **from != k).find_map(beyond));
             }
-            let chords = if after == 1 && k == last { [k - 1, 0] } else { [before, k.min(last - 1)] };
-            let at = |way: f64| {
-                let chord = usize::from(way >= 1.0);
-                piece.trace.between(&curve, chords[chord], (way - chord as f64).min(1.0))
-            };
-            let value = |way: f64| at(way).map_or(f64::INFINITY, |point| self.second(&point));
-            let least = least(value, if before == k { 1.0 } else { 0.0 }, if after == k { 1.0 } else { 2.0 });
-            found.extend(at(least).filter(|point| self.second(point) < RANK));
         }
         found
+    }
+
+    /// The crossing beyond a point of a curve as seen from the second one: how far it is shows the second smallest singular value,
+    /// which is proportional to the distance, and which every step halves.
+    fn crossing(&self, curve: &Curve, [at, from]: [&Point; 2], [mut value, before]: [f64; 2]) -> Option<Point> {
+        let chord = apart(at, from, &self.curve.turns());
+        let mut here = Place { point: *at, direction: curve.tangent(at, &chord)? };
+        let longest = norm(&chord);
+        let mut away = (longest * value / (before - value)).min(longest);
+        for _ in 0..MOST_HALVINGS {
+            if value < NEXT_TO * RANK {
+                let point = std::array::from_fn(|k| here.point[k] + away * here.direction[k]);
+                return (self.second(&point) < RANK).then_some(point);
+            }
+            let (next, way) = step(curve, &here, away / 2.0)?;
+            let there = self.second(&next.point);
+            if !(there < value) {
+                return None;
+            }
+            away = (way * there / (value - there)).min(longest);
+            (here, value) = (next, there);
+        }
+        None
     }
 
     /// The second smallest singular value of the Jacobian of the variables that are not idle, in parts of the largest: that of a
@@ -435,25 +454,6 @@ impl<'a> Explorer<'a> {
         }
         self.dimension_at(&here)
     }
-}
-
-/// Returns where a function of one minimum between two places has it, by the golden section.
-fn least(value: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
-    let part = (5.0_f64.sqrt() - 1.0) / 2.0;
-    let (mut left, mut right) = (high - part * (high - low), low + part * (high - low));
-    let (mut at_left, mut at_right) = (value(left), value(right));
-    for _ in 0..CROSSING_STEPS {
-        if at_left < at_right {
-            (high, right, at_right) = (right, left, at_left);
-            left = high - part * (high - low);
-            at_left = value(left);
-        } else {
-            (low, left, at_left) = (left, right, at_right);
-            right = low + part * (high - low);
-            at_right = value(right);
-        }
-    }
-    if at_left < at_right { left } else { right }
 }
 
 /// Returns by how many the screws outnumber the dimension of the algebra of motions that they span; `None` unless they do,
