@@ -10,7 +10,7 @@ use crate::mechanism::Solution;
 use crate::mechanism::by_input::Prepared;
 use crate::mechanism::unproved::is_settled;
 use crate::solve::scalar::Extended;
-use crate::verdict::{Proof, Verdict};
+use crate::verdict::Verdict;
 use std::time::Instant;
 
 impl SingleLoop {
@@ -59,8 +59,6 @@ impl Question<'_> {
         let is_listed = |mode: &&Mode| mode.real || self.roots == Roots::All;
         let certified = assembly.modes.iter().filter(is_listed).filter(|mode| mode.certificate.is_some()).count();
         let complex_complete = verdict.complex_complete && self.roots == Roots::All;
-        // More digits do not make rounded data exact.
-        let is_final = is_settled(&verdict) || verdict.proof == Proof::RoundedData && verdict.complex_complete;
-        is_final.then_some(Verdict { complex_complete, certified, ..verdict })
+        is_settled(&verdict).then_some(Verdict { complex_complete, certified, ..verdict })
     }
 }
