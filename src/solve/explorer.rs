@@ -42,6 +42,8 @@ const STILL: f64 = 1e-4;
 /// known to the root of rounding.
 const DEPENDENT: f64 = 1e-5;
 
+/// Curves of this number of points are not looked at for crossings: they do not close, and go on without end.
+const MOST_POINTS: usize = 500;
 /// Steps towards a crossing at most: each one halves the distance, or shows how far it is.
 const MOST_HALVINGS: usize = 40;
 /// A crossing this near, in parts of what counts as one, is where the value would be 0: what is left is its square.
@@ -125,7 +127,7 @@ impl<'a> Explorer<'a> {
     /// Returns the points of a curve at which the loop gives way in a direction beside that of the curve.
     fn crossings(&self, piece: &Piece) -> Vec<Point> {
         let points = &piece.trace.points;
-        if piece.dimension != 1 || points.len() < 3 || self.unknowns < 2 {
+        if piece.dimension != 1 || !(3..MOST_POINTS).contains(&points.len()) || self.unknowns < 2 {
             return Vec::new();
         }
         let curve = self.curve.unlocked(&piece.moving, self.within);

@@ -29,6 +29,10 @@ const FAR: f64 = 300.0;
 /// Two ways to the same point of a curve differ by less.
 const SAME: f64 = 1e-5;
 
+/// A straight step that misses the start of its curve by less has come back to it: what is stretched is known to the root of what may be
+/// missed.
+const BESIDE: f64 = 3e-5;
+
 /// A curve that can be followed.
 pub trait Followed {
     /// The Taylor coefficients of the curve at a point of it, see [`Curve::taylor`].
@@ -208,8 +212,13 @@ fn closing(curve: &impl Followed, start: &Place, here: &Place, h: f64, turns: &[
     if !is_near || dot(&start.direction, &here.direction) < SAME_WAY {
         return None;
     }
+    let end: Point = std::array::from_fn(|k| here.point[k] + gap[k]);
+    // A curve along which the loop gives way in another direction too, as that of a wrist in line on a stretched arm, comes back as near
+    // as rounding lets it, and no correction leads to its start.
+    if norm(&along(&gap, &here.direction, &[0.0; 7], -way)) < BESIDE {
+        return Some(end);
+    }
     let [_, slope, bend] = curve.taylor(&here.point, &here.direction)?;
     let (point, _) = curve.corrected(&along(&here.point, &slope, &bend, way), &here.direction)?;
-    let end: Point = std::array::from_fn(|k| here.point[k] + gap[k]);
     (norm(&difference(&point, &end)) < SAME).then_some(end)
 }
