@@ -26,6 +26,8 @@ pub struct Piece {
 const RANK: f64 = 1e-6;
 /// Unknowns that change by less along a step of 0.02 stand still: rounding at a multiple curve reaches 1e-7.
 const MOVED: f64 = 1e-6;
+/// Unknowns that stand still may wander by this, in parts of what the closure may be missed by: condition numbers of usual arms.
+const WANDERS: f64 = 100.0;
 /// Length of a step that explores a self-motion.
 const STEP: f64 = 0.01;
 /// Directions in which points of a self-motion lie beside one of its points: those with at least this part of the largest
@@ -290,7 +292,9 @@ impl<'a> Explorer<'a> {
         if !trace.is_closed && trace.length() < SHORTEST.max(4.0 * self.within.powf(0.25)) {
             return None;
         }
-        let moving = |k: usize| trace.points.iter().any(|other| (other[k] - solution[k]).abs() > MOVED);
+        // Within a wide tolerance joints wander by what it lets them.
+        let moved = MOVED.max(WANDERS * self.within);
+        let moving = |k: usize| trace.points.iter().any(|other| (other[k] - solution[k]).abs() > moved);
         let moving = std::array::from_fn(moving);
         Some(Piece { dimension: 1, moving, trace })
     }
