@@ -191,7 +191,7 @@ impl TaskArm {
         Ok(self.of_loop(solution, inner, pose))
     }
 
-    /// The solutions of a loop of six unknowns by a closed form alone; `None` where that does not prove its list.
+    /// The solutions of a loop of six unknowns by a closed form alone, complex ones too; `None` where that does not prove its list.
     fn by_closed_form(
         &self,
         inner: &Inner,
@@ -201,7 +201,7 @@ impl TaskArm {
     ) -> Result<Option<(Solution, Vec<Found>)>> {
         let tolerance = with.tolerance.unwrap_or_default();
         let solution = self.with_solver(inner, case, pose, |solver, case| {
-            solver.solve_in_closed_form(case, with.roots, tolerance, with.workspace, with.assembly)
+            solver.solve_in_closed_form(case, Roots::All, tolerance, with.workspace, with.assembly)
         })?;
         Ok(solution.map(|solution| self.of_loop(solution, inner, pose)))
     }
