@@ -116,10 +116,11 @@ impl Question<'_> {
         common(&lines)
     }
 
-    /// What axes have in common where all other joints are at quarter turns, as they are up to rounding on a self-motion, if what is
+    /// What axes have in common where all other joints are rotations at quarter turns, as they are up to rounding on a self-motion, if what is
     /// left for them to make is in their group.
     fn common_where_closed(&self, moving: &[usize], family: &SelfMotion) -> Option<Common> {
-        if self.case.pose.as_ref()?.closed.is_some() {
+        let is_turn = |k: usize| self.prepared.layout.loop_kinds()[k] == Variable::Rotation;
+        if self.case.pose.as_ref()?.closed.is_some() || !(0..6).all(is_turn) {
             return None;
         }
         let (closed, sample) = (self.exact()?, family.points.first()?);
