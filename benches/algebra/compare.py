@@ -115,6 +115,29 @@ def flint_determinant_of_symbols(job):
     tell(min(seconds), len(terms), sum(evaluated(term, values) for term in terms))
 
 
+def flint_real_roots(job):
+    """FLINT's isolation of the real roots, all of which must be simple, without what the call from Python takes."""
+    import flint
+    library = flint_library()
+    x = flint.fmpz_poly([0, 1])
+    p = flint.fmpz_poly([int(c) for c in job["coefficients"]]) if "coefficients" in job else evaluated(job["poly"], {"x": x})
+    degree = p.degree()
+    poly = (ctypes.c_long * 4)()
+    library.fmpz_poly_init(poly)
+    text = f"{degree + 1}  {' '.join(str(p[k]) for k in range(degree + 1))}".encode()
+    if library.fmpz_poly_set_str(poly, text):
+        sys.exit("FLINT does not read the polynomial")
+    # Fractions 0/1, numerators 0, exponents.
+    exact = (ctypes.c_long * (2 * degree))(*[0, 1] * degree)
+    numerators, exponents = (ctypes.c_long * degree)(), (ctypes.c_long * degree)()
+    points, intervals = ctypes.c_long(), ctypes.c_long()
+    arguments = (exact, ctypes.byref(points), numerators, exponents, ctypes.byref(intervals), poly)
+    _, call = timed(lambda: library.flint_get_num_threads(*arguments), 0.2)
+    _, seconds = timed(lambda: library.fmpz_poly_isolate_real_roots(*arguments))
+    real = points.value + intervals.value
+    tell(seconds - call, real, real)
+
+
 def flint_job(job):
     import flint
     kind = job["kind"]
@@ -123,11 +146,7 @@ def flint_job(job):
     if kind == "polydet":
         return flint_determinant(job)
     if kind == "roots":
-        x = flint.fmpz_poly([0, 1])
-        p = flint.fmpz_poly([int(c) for c in job["coefficients"]]) if "coefficients" in job else evaluated(job["poly"], {"x": x})
-        roots, seconds = timed(p.complex_roots)
-        real = sum(root.imag == 0 for root, _ in roots)
-        return tell(seconds, real, real)
+        return flint_real_roots(job)
     context = flint.fmpz_mpoly_ctx.get(job["vars"], flint.Ordering.lex)
     names = dict(zip(job["vars"], context.gens()))
     if kind in ("mul", "res", "gcd"):

@@ -1,6 +1,6 @@
 //! Determinants of matrices of polynomials with integer coefficients: the choice of the route.
 
-use super::Polynomial;
+use super::{Polynomial, short};
 use crate::determinant::{bareiss, of_polynomials};
 use crate::int::Int;
 use crate::minors::{Expansion, Price, cells};
@@ -32,6 +32,9 @@ impl Polynomial<Int> {
     pub fn determinant(rows: &[Vec<Self>]) -> Self {
         let size = rows.len();
         assert!(rows.iter().all(|row| row.len() == size), "a determinant is of a square matrix");
+        if let Some(determinant) = short::determinant(rows) {
+            return determinant;
+        }
         let all: Vec<&[Self]> = rows.iter().map(Vec::as_slice).collect();
         if size > Expansion::MOST_COLUMNS {
             return Matrix { rows: all, pattern: None }.determinant();

@@ -15,6 +15,7 @@ mod power;
 mod product;
 mod quotient;
 mod recurrence;
+mod short;
 mod sparse_gcd;
 mod square_free;
 mod substitution;
@@ -129,7 +130,7 @@ impl<R: Ring> Polynomial<R> {
     }
 
     /// Returns the sum of packed terms in any order.
-    fn from_unsorted(packing: Packing, monomials: Vec<u64>, coefficients: Vec<R>) -> Self {
+    pub(crate) fn from_unsorted(packing: Packing, monomials: Vec<u64>, coefficients: Vec<R>) -> Self {
         let words = packing.words();
         let decreasing = if words == 1 {
             monomials.is_sorted_by(|a, b| a > b)
@@ -237,6 +238,12 @@ impl<R: Ring> Polynomial<R> {
     #[must_use]
     pub const fn variables(&self) -> usize {
         self.packing.variables()
+    }
+
+    /// Returns a bound of all exponents, known without a look at them.
+    #[must_use]
+    pub const fn exponent_bound(&self) -> u32 {
+        self.packing.largest()
     }
 
     /// Returns the degree in one variable; 0 for the zero polynomial.

@@ -4,7 +4,7 @@ use super::blocks::{self, Accumulator, Blocks, Grid, Triple};
 use super::kronecker::{Kronecker, Numbers};
 use super::limbs::{Factor, Sum};
 use super::planes::{Planes, Sums};
-use super::{Polynomial, Size};
+use super::{Polynomial, Size, short};
 use crate::monomial::Packing;
 use crate::ring::Ring;
 use rug::Integer;
@@ -82,10 +82,30 @@ impl<R: Ring> Polynomial<R> {
         if packing.words() == 1 && left.len() == 2 {
             return left.merged_product(right, packing, &a, &b);
         }
+        if let Some(product) = left.short_product(right, packing, &a, &b) {
+            return product;
+        }
         if packing.words() == 1 && left.len() * right.len() <= FEW && !left.fills_box(right) {
             return left.sorted_product(right, packing, &a, &b);
         }
         left.collected_product(right, packing, &a, &b)
+    }
+
+    /// Returns the product of few terms with short coefficients.
+    fn short_product(&self, other: &Self, packing: Packing, left: &[u64], right: &[u64]) -> Option<Self> {
+        if packing.words() != 1 || self.len() * other.len() > short::MOST {
+            return None;
+        }
+        let (a, b) = to_words(&self.coefficients).zip(to_words(&other.coefficients))?;
+        let degrees = || self.degrees_of_product(other, packing);
+        let (monomials, words) = short::product(packing, degrees, (left, &a), (right, &b))?;
+        Some(Self { packing, monomials, coefficients: words.into_iter().map(|n| R::from_wide(n.into())).collect() })
+    }
+
+    fn degrees_of_product(&self, other: &Self, packing: Packing) -> Vec<u32> {
+        let (own, others) = (self.degrees(), other.degrees());
+        let of = |degrees: &[u32], variable: usize| degrees.get(variable).copied().unwrap_or(0);
+        (0..packing.variables()).map(|v| of(&own, v) + of(&others, v)).collect()
     }
 
     /// Returns whether coefficients are integers and many of the monomials that the degrees of the product allow occur in it.
@@ -177,9 +197,7 @@ impl<R: Ring> Polynomial<R> {
 
     /// By heap and box, with sums in the shortest integers that hold them.
     fn collected_product(&self, other: &Self, packing: Packing, left: &[u64], right: &[u64]) -> Self {
-        let (own, others) = (self.degrees(), other.degrees());
-        let of = |degrees: &[u32], variable: usize| degrees.get(variable).copied().unwrap_or(0);
-        let degrees: Vec<u32> = (0..packing.variables()).map(|v| of(&own, v) + of(&others, v)).collect();
+        let degrees = self.degrees_of_product(other, packing);
         let words = to_words(&self.coefficients).zip(to_words(&other.coefficients));
         let bound = words.as_ref().map(|(a, b)| bound(a, b));
         let pairs = self.len() as f64 * other.len() as f64;

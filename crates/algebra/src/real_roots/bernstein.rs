@@ -18,7 +18,7 @@ const WIDE_BITS: i64 = 252;
 /// The bits at least of the largest coefficient of an expansion in big integers.
 const FRESH_BITS: i64 = 160;
 /// The bits that the largest coefficient of an expansion in f64 has beyond its error; fewer would not last for many halvings.
-const ROUGH_BITS: u32 = 24;
+pub(super) const ROUGH_BITS: u32 = 24;
 /// The error of an expansion that no halving has touched.
 const FRESH_ERROR: u64 = 3;
 
@@ -273,7 +273,8 @@ impl Expansion {
                 Self::Wide { coefficients: left, error: *error }
             }
             Self::Rough { coefficients, error } => {
-                *error += rough::error_of_halving(coefficients);
+                let largest = coefficients.iter().map(|b| b.abs()).fold(0.0, f64::max);
+                *error += rough::error_of_halving(coefficients.len(), largest);
                 let left = Arch::new().dispatch(
                     #[inline(always)]
                     || halves(coefficients, |a, b| *a = 0.5 * (*a + b)),
@@ -343,7 +344,7 @@ impl Expansion {
     }
 
     /// Returns whether the largest coefficient has that many bits more than the error.
-    fn stands_out(&self, bits: u32) -> bool {
+    pub(super) fn stands_out(&self, bits: u32) -> bool {
         match self {
             Self::Wide { coefficients, error } => coefficients.iter().any(|b| b.exceeds(*error, bits)),
             Self::Rough { coefficients, error } => {

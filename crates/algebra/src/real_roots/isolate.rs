@@ -17,7 +17,7 @@ const FIRST_PRECISION: i64 = 256;
 const FIRST_LEAP: u32 = 8;
 const LONGEST_LEAP: u32 = 1 << 20;
 /// The bits of a guess that f64 arithmetic nearly always gets right.
-const GUESS_BITS: u32 = 48;
+pub(super) const GUESS_BITS: u32 = 48;
 /// The most doublings of a first cell that are left for the end.
 const MOST_DOUBLINGS: i64 = 64;
 /// The bits that a Newton step is computed with beyond those of the leap.
@@ -51,7 +51,7 @@ impl Place {
     }
 
     /// Returns the place of the root of `p(-x)` that belongs to this root of `p(x)`.
-    fn mirrored(self) -> Self {
+    pub(super) fn mirrored(self) -> Self {
         match self {
             Self::At(numerator, exponent) => Self::At(-numerator, exponent),
             Self::Within(cell, sign, guess) => {

@@ -9,7 +9,10 @@ mod rational;
 mod refine;
 mod rough;
 mod sample;
+mod short;
 
+use super::int::Int;
+use super::ring::Ring;
 use super::univariate::Univariate;
 use cell::dyadic;
 use isolate::{Place, isolate};
@@ -32,7 +35,7 @@ use std::sync::Arc;
 /// ```
 #[derive(Clone, Debug)]
 pub struct RealRoot {
-    /// Square-free; the root is a root of it.
+    /// The root is a simple root of it.
     polynomial: Arc<Univariate<Integer>>,
     multiplicity: usize,
     place: Place,
@@ -102,14 +105,74 @@ impl Univariate<Integer> {
     #[must_use]
     pub fn real_roots(&self) -> Vec<RealRoot> {
         assert!(self.degree().is_some(), "every number is a root of zero");
-        let zeros = self.coefficients().iter().take_while(|c| **c == 0).count();
-        let rest = Univariate::new(self.coefficients()[zeros..].to_vec());
-        let mut factors = rest.square_free_decomposition();
-        if zeros > 0 {
-            factors.insert(0, (Univariate::x(), zeros));
-        }
-        roots_of_factors(&factors)
+        let integer = Integer::clone;
+        roots_by_floats(self.coefficients(), rough::leading, integer).unwrap_or_else(|| roots(self.coefficients()))
     }
+}
+
+impl Univariate<Int> {
+    /// Returns the distinct real roots, as for big integers.
+    ///
+    /// # Panics
+    /// When the polynomial is zero.
+    #[must_use]
+    pub fn real_roots(&self) -> Vec<RealRoot> {
+        assert!(self.degree().is_some(), "every number is a root of zero");
+        let lead = |c: &Int| c.to_i64().map_or_else(|| rough::leading(&c.to_integer()), short::lead_of_word);
+        let integers = || self.coefficients().iter().map(Int::to_integer).collect::<Vec<_>>();
+        roots_by_floats(self.coefficients(), lead, Int::to_integer).unwrap_or_else(|| roots(&integers()))
+    }
+}
+
+/// Returns the number of lowest coefficients that are zero.
+fn zeros<C: Ring>(coefficients: &[C]) -> usize {
+    coefficients.iter().take_while(|c| c.is_zero()).count()
+}
+
+/// Returns the real roots of a polynomial, not zero, by its square-free factors.
+fn roots(coefficients: &[Integer]) -> Vec<RealRoot> {
+    let zeros = zeros(coefficients);
+    let rest = Univariate::new(coefficients[zeros..].to_vec());
+    let mut factors = rest.square_free_decomposition();
+    if zeros > 0 {
+        factors.insert(0, (Univariate::x(), zeros));
+    }
+    roots_of_factors(&factors)
+}
+
+/// Returns the same if f64 settles where they are and that all but 0 are simple.
+fn roots_by_floats<C: Ring>(
+    coefficients: &[C],
+    lead: impl Fn(&C) -> (f64, i64),
+    integer: impl Fn(&C) -> Integer,
+) -> Option<Vec<RealRoot>> {
+    let zeros = zeros(coefficients);
+    let rest = &coefficients[zeros..];
+    if !(2..=short::HIGHEST + 1).contains(&rest.len()) {
+        return None;
+    }
+    let integers = || rest.iter().map(&integer).collect::<Vec<Integer>>();
+    let leads: Vec<(f64, i64)> = rest.iter().map(lead).collect();
+    let places = short::isolate(&leads, zeros > 0, &integers)?;
+    let negative = places.iter().take_while(|place| *place.start().0 < 0).count();
+    let mut roots: Vec<RealRoot> = Vec::with_capacity(places.len() + 1);
+    if !places.is_empty() {
+        let polynomial = Arc::new(Univariate::new(integers()));
+        roots.extend(places.into_iter().map(|place| RealRoot {
+            polynomial: polynomial.clone(),
+            multiplicity: 1,
+            place,
+        }));
+    }
+    if zeros > 0 {
+        roots.insert(negative, zero(zeros));
+    }
+    Some(roots)
+}
+
+/// Returns the root 0.
+fn zero(multiplicity: usize) -> RealRoot {
+    RealRoot { polynomial: Arc::new(Univariate::x()), multiplicity, place: Place::At(Integer::new(), 0) }
 }
 
 /// Returns the distinct real roots of a product from left to right, as [`Univariate::real_roots`] does, if its square-free factors are known.
@@ -121,8 +184,7 @@ pub fn roots_of_factors(factors: &[(Univariate<Integer>, usize)]) -> Vec<RealRoo
         let multiplicity = *multiplicity;
         let is_root = factor.coefficients().first().is_some_and(|c| *c == 0);
         if is_root {
-            let polynomial = Arc::new(Univariate::x());
-            roots.push(RealRoot { polynomial, multiplicity, place: Place::At(Integer::new(), 0) });
+            roots.push(zero(multiplicity));
         }
         let factor = Univariate::new(factor.coefficients()[usize::from(is_root)..].to_vec());
         if factor.degree() > Some(0) {

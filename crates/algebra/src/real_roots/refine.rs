@@ -1,9 +1,12 @@
 //! Shrinking the interval of a root, and its f64 values.
 
 use super::RealRoot;
+use super::bernstein::ROUGH_BITS;
 use super::cell::{Cell, compare, dyadic};
-use super::evaluate::{Value, length, shifted, sign, value_at};
-use super::isolate::{Guess, Place};
+use super::evaluate::{Value, length, reach, shifted, sign, value_at};
+use super::isolate::{GUESS_BITS, Guess, Place};
+use super::rough::{self, leading};
+use super::short::HIGHEST;
 use rug::{Integer, Rational};
 use std::cmp::Ordering;
 
@@ -113,6 +116,9 @@ impl RealRoot {
     fn refine_to(&mut self, target: i64, mut bits: u32) {
         let Place::Within(cell, left, known) = &self.place else { return };
         let (mut cell, left, mut known, mut precision) = (cell.clone(), *left, *known, VALUE_PRECISION);
+        if known.is_none() && cell.exponent > target {
+            known = self.guess(&cell, left);
+        }
         if let Some(guess) = known {
             bits = guess.bits;
         }
@@ -191,6 +197,28 @@ impl RealRoot {
             cell = Cell::new(start + index, exponent);
         }
         self.place = Place::Within(cell, left, known);
+    }
+
+    /// Returns where the root probably is in its cell, if the degree is low and f64 tells; the search that found such roots asks for no guess.
+    fn guess(&self, cell: &Cell, left: i8) -> Option<Guess> {
+        let coefficients = self.polynomial.coefficients();
+        if coefficients.len() > HIGHEST + 1 {
+            return None;
+        }
+        // On the right of 0.
+        let mirrored = cell.numerator < 0;
+        let lead = |(i, c): (usize, &Integer)| {
+            let (mantissa, exponent) = leading(c);
+            (if mirrored && i % 2 == 1 { -mantissa } else { mantissa }, exponent)
+        };
+        let leads: Vec<(f64, i64)> = coefficients.iter().enumerate().map(lead).collect();
+        let cell = if mirrored { cell.mirrored() } else { cell.clone() };
+        let expansion = rough::expand(&leads, reach(coefficients, cell.exponent + length(&cell.numerator)), &cell);
+        if !expansion.stands_out(ROUGH_BITS) {
+            return None;
+        }
+        let y = expansion.guess_root(if mirrored { -left } else { left })?;
+        Some(Guess { y: if mirrored { 1.0 - y } else { y }, bits: GUESS_BITS })
     }
 
     /// Returns the root rounded to the nearest f64, ties to even; infinite beyond the range. Shrinks the interval for that.

@@ -20,7 +20,7 @@ use rug::Integer;
 const LEAST: i64 = -1000;
 
 /// Returns `2^exponent`, which must be a normal number.
-fn power_of_two(exponent: i64) -> f64 {
+pub(super) fn power_of_two(exponent: i64) -> f64 {
     // The exponent that 1 has in the bits of a float, and the bits behind it.
     const BIAS: i64 = 1023;
     const FRACTION: u32 = f64::MANTISSA_DIGITS - 1;
@@ -60,11 +60,10 @@ pub(super) fn expand(leads: &[(f64, i64)], reach: i64, cell: &Cell) -> Expansion
     Expansion::Rough { coefficients: b, error: bound }
 }
 
-/// Returns the error that halving a cell adds to these coefficients: each of n averages in a row rounds once, in proportion or below
+/// Returns the error that halving a cell adds to so many coefficients: each of n averages in a row rounds once, in proportion or below
 /// the range of f64, and none exceeds the largest coefficient.
-pub(super) fn error_of_halving(coefficients: &[f64]) -> f64 {
-    let largest = coefficients.iter().map(|b| b.abs()).fold(0.0, f64::max);
-    1.01 * coefficients.len() as f64 * (f64::EPSILON / 2.0 * largest + power_of_two(LEAST))
+pub(super) fn error_of_halving(count: usize, largest: f64) -> f64 {
+    1.01 * count as f64 * (f64::EPSILON / 2.0 * largest + power_of_two(LEAST))
 }
 
 /// Returns the coefficients on `[from, to]` of the polynomial with these terms, and `sum |c_i| to^i`.

@@ -2,7 +2,8 @@
 //!
 //! Reading goes in two steps. [`Expression::parse`] turns text into a tree, in which sums of plain terms are already
 //! flat lists; [`Expression::expand`] multiplies it out over the integers, with one common denominator, and
-//! [`Expression::evaluate`] computes its value in any ring without multiplying out.
+//! [`Expression::evaluate`] computes its value in any ring without multiplying out. [`read_polynomial`] does both steps, and in one
+//! where it can.
 
 mod document;
 mod expand;
@@ -14,6 +15,7 @@ mod fraction;
 mod names;
 mod notation;
 mod parser;
+mod plain;
 mod rename;
 mod scanner;
 mod terms;
@@ -24,4 +26,5 @@ pub use fault::{Fault, Place};
 pub use format::Format;
 pub use fraction::Fraction;
 pub use names::Names;
+pub use plain::read_polynomial;
 pub use scanner::{read_fraction, read_number};

@@ -2,12 +2,15 @@
 
 use super::fault::shortened;
 use crate::error::Error;
+use crate::monomial::Packing;
 use std::collections::HashMap;
 
 /// The largest number of names.
 const MOST_NAMES: usize = 1000;
 /// Up to this many names a look through all of them is faster than a table.
 const FEW: usize = 12;
+/// Up to this many, those of up to eight bytes are looked for word by word.
+const MANY: usize = 64;
 /// Names that resemble an unknown one at least this much are suggested.
 const RESEMBLANCE: f64 = 0.6;
 
@@ -86,7 +89,12 @@ impl Names {
     /// Returns the number of the variable whose name has these bytes, up to eight, the last one lowest; `None` among many names.
     #[inline]
     pub(super) fn position(&self, word: u64) -> Option<usize> {
-        if self.table.is_empty() { self.words.iter().position(|&known| known == word) } else { None }
+        if self.words.len() <= MANY { self.words.iter().position(|&known| known == word) } else { None }
+    }
+
+    /// Returns the packing of monomials with room for all variables, if these are known.
+    pub(super) fn packing(&self) -> Option<Packing> {
+        self.complete.then(|| Packing::new(self.list.len(), 0))
     }
 
     /// Like [`Self::index`]; the error names those that resemble it.

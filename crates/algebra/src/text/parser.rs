@@ -20,9 +20,9 @@ use std::cmp::Ordering;
 /// Parentheses nested deeper than this are refused.
 const DEEPEST: usize = 500;
 /// Room is made for this many terms before they are read.
-const MOST_EXPECTED: usize = 1 << 16;
+pub(super) const MOST_EXPECTED: usize = 1 << 16;
 /// Number of digits up to which an exponent needs no check of its size.
-const MOST_EXPONENT_DIGITS: usize = 6;
+pub(super) const MOST_EXPONENT_DIGITS: usize = 6;
 /// Powers of numbers may have this many bits in one text, all taken together.
 const LARGEST_POWERS: u64 = 100_000_000;
 

@@ -25,23 +25,29 @@ pub fn run(options: &DetOptions) -> Result<Exit, Fault> {
     for row in &rows {
         input::check_degrees(row)?;
     }
-    let result = of_fractions(&rows);
+    let result = of_fractions(rows);
     tell::results(&[result], &names, &options.write, &input::files(&[&options.matrix]))?;
     Ok(Exit::Complete)
 }
 
 /// Returns the determinant, with the denominators of each row cleared first.
-pub fn of_fractions(rows: &[Vec<Fraction>]) -> Fraction {
+pub fn of_fractions(rows: Vec<Vec<Fraction>>) -> Fraction {
     let mut denominators = Vec::new();
     let cleared: Vec<Vec<Polynomial<Int>>> = rows
-        .iter()
+        .into_iter()
         .map(|row| {
             let lcm = row.iter().fold(Int::one(), |lcm, entry| {
-                let gcd = lcm.gcd(&entry.denominator);
-                lcm.mul(&entry.denominator.div_exact(&gcd))
+                if entry.denominator == lcm {
+                    lcm
+                } else {
+                    lcm.mul(&entry.denominator.div_exact(&lcm.gcd(&entry.denominator)))
+                }
             });
-            let entry = |entry: &Fraction| entry.numerator.scale(&lcm.div_exact(&entry.denominator));
-            let cleared = row.iter().map(entry).collect();
+            let entry = |entry: Fraction| {
+                let Fraction { numerator, denominator } = entry;
+                if denominator == lcm { numerator } else { numerator.scale(&lcm.div_exact(&denominator)) }
+            };
+            let cleared = row.into_iter().map(entry).collect();
             denominators.push(lcm);
             cleared
         })

@@ -113,7 +113,8 @@ pub fn exactly<const N: usize>(arguments: &[&str], options: &ReadOptions) -> Res
 
 /// Limits degrees, because the algorithms of most verbs work with lists of coefficients.
 pub fn check_degrees(polynomials: &[Fraction]) -> Result<(), Error> {
-    let largest = polynomials.iter().flat_map(|p| p.numerator.degrees()).max().unwrap_or(0);
+    let open = polynomials.iter().filter(|p| p.numerator.exponent_bound() > LARGEST_DEGREE);
+    let largest = open.flat_map(|p| p.numerator.degrees()).max().unwrap_or(0);
     if largest > LARGEST_DEGREE {
         return Err(Error::Invalid(format!("found the degree {largest}, expected at most {LARGEST_DEGREE}")));
     }

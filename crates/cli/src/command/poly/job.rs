@@ -15,7 +15,7 @@ use looproot_algebra::determinant::of_polynomials;
 use looproot_algebra::int::Int;
 use looproot_algebra::polynomial::Polynomial;
 use looproot_algebra::ring::{Domain, Ring};
-use looproot_algebra::text::{Expression, Fraction, Names, read_fraction, read_number};
+use looproot_algebra::text::{Fraction, Names, read_fraction, read_polynomial};
 use looproot_algebra::univariate::Univariate;
 use rug::Rational;
 use serde_json::Value;
@@ -73,7 +73,8 @@ enum Input {
     Coefficients(usize, Vec<Vec<Int>>, Int),
     Matrix(Vec<Vec<Fraction>>),
     Polynomials(Vec<Fraction>),
-    Univariate(Univariate<Rational>),
+    /// Times a denominator.
+    Univariate(Univariate<Int>),
 }
 
 enum Answer {
@@ -148,13 +149,14 @@ impl<'j> Job<'j> {
             Self::Expand(variables, text, None, _) => polynomials(variables, &[text]),
             Self::Expand(variables, text, Some(divisor), _) => polynomials(variables, &[text, divisor]),
             Self::RootsOfList(numbers) => {
-                let numbers: Result<Vec<Rational>, _> = numbers.iter().map(|number| read_number(number)).collect();
-                Ok(Input::Univariate(Univariate::new(numbers?)))
+                let mut rows = Vec::with_capacity(1);
+                cleared(std::slice::from_ref(numbers), &mut rows)?;
+                Ok(Input::Univariate(Univariate::new(rows.pop().unwrap_or_default())))
             }
             Self::Roots(variables, text) => {
                 let polynomial = expand(text, &mut Names::given(variables)?)?;
                 check_degrees(std::slice::from_ref(&polynomial))?;
-                let polynomial = polynomial.to_rational().to_univariate(0);
+                let polynomial = polynomial.numerator.to_univariate(0);
                 let several = || Error::Invalid("found several variables, expected roots in the first one".to_owned());
                 Ok(Input::Univariate(polynomial.ok_or_else(several)?))
             }
@@ -170,7 +172,7 @@ impl<'j> Job<'j> {
             }
             (_, Input::Matrix(rows)) => {
                 rows.iter().try_for_each(|row| check_degrees(row))?;
-                Answer::Polynomial(determinant::of_fractions(&rows))
+                Answer::Polynomial(determinant::of_fractions(rows))
             }
             (_, Input::Univariate(polynomial)) => {
                 if polynomial.is_zero() {
@@ -242,20 +244,31 @@ fn common_divisor(f: &Fraction, g: &Fraction) -> Fraction {
 
 /// Reads a row of coefficient lists, appends them times the least common multiple of their denominators, and returns that.
 fn cleared(row: &[Vec<&str>], entries: &mut Vec<Vec<Int>>) -> Outcome<Int> {
-    let read = |entry: &Vec<&str>| entry.iter().map(|text| read_fraction(text)).collect::<Result<Vec<_>, _>>();
-    let fractions: Vec<Vec<(Int, Int)>> = row.iter().map(read).collect::<Result<_, _>>()?;
-    let multiple = |common: Int, (_, own): &(Int, Int)| {
-        if common == *own { common } else { common.mul(&own.div_exact(&common.gcd(own))) }
-    };
-    let common = fractions.iter().flatten().fold(Int::one(), multiple);
-    let scaled = |(n, d): (Int, Int)| if d == common { n } else { n.mul(&common.div_exact(&d)) };
-    entries.extend(fractions.into_iter().map(|entry| entry.into_iter().map(scaled).collect()));
+    let (start, mut denominators) = (entries.len(), Vec::new());
+    for entry in row {
+        let mut numbers = Vec::with_capacity(entry.len());
+        for text in entry {
+            let (numerator, denominator) = read_fraction(text)?;
+            if denominator != Int::one() {
+                denominators.push((entries.len(), numbers.len(), denominator));
+            }
+            numbers.push(numerator);
+        }
+        entries.push(numbers);
+    }
+    let multiple = |common: Int, (.., own): &(usize, usize, Int)| common.mul(&own.div_exact(&common.gcd(own)));
+    let common = denominators.iter().fold(Int::one(), multiple);
+    if common != Int::one() {
+        entries[start..].iter_mut().flatten().for_each(|number| *number = number.mul(&common));
+        for (entry, place, own) in &denominators {
+            entries[*entry][*place] = entries[*entry][*place].div_exact(own);
+        }
+    }
     Ok(common)
 }
 
 fn expand(text: &str, names: &mut Names) -> Outcome<Fraction> {
-    let expression = Expression::parse(text, names).and_then(|expression| expression.expand());
-    expression.map_err(|fault| fault.in_text(text).into())
+    read_polynomial(text, names).map_err(|fault| fault.in_text(text).into())
 }
 
 fn string<'j>(value: &'j Value, key: &str) -> Outcome<&'j str> {
