@@ -253,3 +253,47 @@ impl Search<'_> {
         sign(&value_at(&self.exact, &numerator, exponent, 0, &mut 256).mantissa)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::int::Int;
+    use crate::real_roots::roots;
+    use crate::ring::Ring;
+    use crate::univariate::Univariate;
+    use proptest::prelude::*;
+
+    #[test]
+    fn leads_of_words_are_those_of_big_integers() {
+        for n in [0, 1, -1, 2, 3, -1000, (1 << 53) + 1, i64::MAX, i64::MIN, 1 << 40] {
+            let (mantissa, exponent) = lead_of_word(n);
+            assert_eq!(mantissa * f64::from(i32::try_from(exponent).unwrap()).exp2(), n as f64);
+            assert!(n == 0 || (0.5..1.0).contains(&mantissa.abs()));
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(300))]
+        /// Small coefficients have roots at corners of the grid, at 0 and at each other's negatives.
+        #[test]
+        fn roots_are_those_of_the_general_search(
+            coefficients in prop::sample::select(vec![2_i64, 20, 1_000_000_000, i64::MAX])
+                .prop_flat_map(|largest| prop::collection::vec(-largest..=largest, 2..14)),
+            factors in prop::collection::vec((-6..=6_i64, 1..=3_i64), 0..8),
+        ) {
+            let factor = |&(a, b): &(i64, i64)| Univariate::new(vec![Integer::from(-a), Integer::from(b)]);
+            let start = Univariate::new(coefficients.into_iter().map(Integer::from).collect());
+            let poly = factors.iter().map(factor).fold(start, |product, factor| product.mul(&factor));
+            prop_assume!(!poly.is_zero());
+            let words = Univariate::new(poly.coefficients().iter().cloned().map(Int::from).collect());
+            let (mut found, mut expected) = (poly.real_roots(), roots(poly.coefficients()));
+            prop_assert_eq!(words.real_roots().len(), expected.len());
+            prop_assert_eq!(found.len(), expected.len());
+            prop_assert!(found.windows(2).all(|pair| pair[0].bounds().1 < pair[1].bounds().0));
+            for (found, expected) in found.iter_mut().zip(&mut expected) {
+                prop_assert_eq!(found.multiplicity(), expected.multiplicity());
+                prop_assert_eq!(found.to_f64(), expected.to_f64());
+            }
+        }
+    }
+}
