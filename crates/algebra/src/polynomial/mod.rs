@@ -15,6 +15,7 @@ mod power;
 mod product;
 mod quotient;
 mod recurrence;
+mod scattered;
 mod short;
 mod sparse_gcd;
 mod square_free;

@@ -4,7 +4,7 @@ use super::blocks::{self, Accumulator, Blocks, Grid, Triple};
 use super::kronecker::{Kronecker, Numbers};
 use super::limbs::{Factor, Sum};
 use super::planes::{Planes, Sums};
-use super::{Polynomial, Size, short};
+use super::{Polynomial, Size, scattered, short};
 use crate::monomial::Packing;
 use crate::ring::Ring;
 use rug::Integer;
@@ -15,6 +15,8 @@ const FEW: usize = 1024;
 const DENSE: usize = 128;
 /// Cells of a box: their sums stay in the first-level cache, or nearly so.
 pub(super) const CELLS: usize = 1 << 12;
+/// The most terms of a block, on the average, for which a box is worth nothing.
+const MOST_IN_BLOCKS: usize = 2;
 /// Nanoseconds of a product that need no other way than the box.
 const SHORT: f64 = 1e3;
 /// Sums below these fit an i64, and an i128.
@@ -231,6 +233,18 @@ impl<R: Ring> Polynomial<R> {
             }
         }
         let grid = Grid::new(packing, &degrees, CELLS.min(self.len().saturating_mul(other.len())));
+        if let (Some((a, b)), Some(..HALF)) = (&words, bound) {
+            let blocks = [Blocks::new(&grid, left), Blocks::new(&grid, right)];
+            let product = if blocks.iter().any(|blocks| blocks.cells.len() > MOST_IN_BLOCKS * blocks.len()) {
+                None
+            } else {
+                scattered::product(packing, &degrees, (left, a), (right, b))
+            };
+            if let Some((monomials, words)) = product {
+                let coefficients = words.into_iter().map(|n| R::from_wide(n.into())).collect();
+                return Self { packing, monomials, coefficients };
+            }
+        }
         let mut coefficients = Vec::new();
         let monomials = match (&words, bound, &short) {
             (Some((a, b)), Some(..HALF), _) => collect(&grid, &degrees, (left, a), (right, b), &mut |n: i64| {
@@ -329,6 +343,12 @@ mod tests {
         };
         assert_eq!(f.mul(g), expected);
         let (a, b) = (to_words(&f.coefficients).unwrap(), to_words(&g.coefficients).unwrap());
+        if packing.words() == 1 && bound(&a, &b) < 1 << 63 {
+            let degrees = f.degrees_of_product(g, packing);
+            let (left, right) = (f.packed_as(packing), g.packed_as(packing));
+            let (monomials, words) = scattered::product(packing, &degrees, (&left, &a), (&right, &b)).unwrap();
+            assert_eq!(Poly { packing, monomials, coefficients: words.into_iter().map(Int::from).collect() }, expected);
+        }
         for most in [1, 2, 40, 1000, CELLS, 1 << 20] {
             for marked in [false, true] {
                 assert_eq!(branch::<i64, i128>((f, &a), (g, &b), most, marked, Int::from), expected);
