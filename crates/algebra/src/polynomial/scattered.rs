@@ -1,6 +1,8 @@
 //! Products of polynomials whose terms are so scattered that hardly two products of terms are alike: all are written out and sorted by their
 //! digits, which costs less for each than a heap does.
 
+#![expect(clippy::cast_possible_truncation, reason = "digits are short")]
+
 use crate::monomial::Packing;
 
 /// The most products of terms: both lists of them then take 64 MB.
@@ -86,7 +88,7 @@ fn sort(terms: &mut Vec<(u64, i64)>, bits: u32) {
         for start in &mut starts {
             (*start, sum) = (sum, sum + *start);
         }
-        for term in terms.iter() {
+        for term in &*terms {
             let start = &mut starts[place(term.0)];
             sorted[*start] = *term;
             *start += 1;

@@ -7,6 +7,8 @@
 //! A bound on the sums of absolute values shows beforehand that all sums fit a machine word. At places they are added up in
 //! f64 if it is at most `2^53`: then every product and every sum on the way is an integer that f64 holds exactly.
 
+#![expect(clippy::cast_possible_truncation, reason = "keys are places in lists, and sums fit a word")]
+
 use super::Polynomial;
 use super::product::bound;
 use crate::int::Int;
