@@ -100,7 +100,7 @@ impl<R: Ring> Polynomial<R> {
         }
         let (a, b) = to_words(&self.coefficients).zip(to_words(&other.coefficients))?;
         let degrees = || self.degrees_of_product(other, packing);
-        let (monomials, words) = short::product(packing, degrees, (left, &a), (right, &b))?;
+        let (monomials, words) = short::product(packing, &degrees, (left, &a), (right, &b))?;
         Some(Self { packing, monomials, coefficients: words.into_iter().map(|n| R::from_wide(n.into())).collect() })
     }
 

@@ -83,7 +83,9 @@ fn sort(terms: &mut Vec<(u64, i64)>, bits: u32) {
         let shift = pass * digit;
         let place = |key: u64| (key >> shift) as usize & ((1 << digit) - 1);
         let mut starts = vec![0_usize; 1 << digit];
-        terms.iter().for_each(|term| starts[place(term.0)] += 1);
+        for term in &*terms {
+            starts[place(term.0)] += 1;
+        }
         let mut sum = 0;
         for start in &mut starts {
             (*start, sum) = (sum, sum + *start);

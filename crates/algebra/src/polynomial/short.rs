@@ -14,6 +14,7 @@ use super::product::bound;
 use crate::int::Int;
 use crate::monomial::Packing;
 use pulp::Arch;
+use std::cmp::Reverse;
 
 /// A key and a coefficient.
 type Term = (u64, i64);
@@ -230,7 +231,7 @@ impl Sums {
     fn take(&mut self) -> Vec<Term> {
         match self {
             Self::List(list) => {
-                list.sort_unstable_by(|a, b| b.0.cmp(&a.0));
+                sort(list);
                 let mut sums: Vec<Term> = Vec::with_capacity(list.len());
                 for (key, c) in list.drain(..) {
                     match sums.last_mut() {
@@ -244,12 +245,17 @@ impl Sums {
             Self::Table(table, _) => {
                 let found = table.iter().filter(|(_, c)| *c != 0);
                 let mut sums: Vec<Term> = found.map(|(key, c)| (key - 1, *c)).collect();
-                sums.sort_unstable_by(|a, b| b.0.cmp(&a.0));
+                sort(&mut sums);
                 table.fill((0, 0));
                 sums
             }
         }
     }
+}
+
+/// Sorts terms by decreasing keys.
+fn sort(terms: &mut [Term]) {
+    terms.sort_unstable_by_key(|term| Reverse(term.0));
 }
 
 /// The places of all monomials within some degrees.
@@ -308,7 +314,7 @@ impl Places {
 /// other ways are faster or a word too short.
 pub(super) fn product(
     packing: Packing,
-    degrees: impl FnOnce() -> Vec<u32>,
+    degrees: &dyn Fn() -> Vec<u32>,
     (left, a): (&[u64], &[i64]),
     (right, b): (&[u64], &[i64]),
 ) -> Option<(Vec<u64>, Vec<i64>)> {
@@ -318,13 +324,14 @@ pub(super) fn product(
         return None;
     }
     let coefficients = |terms: Vec<Term>| terms.into_iter().map(|term| term.1).collect();
-    if products > SORTED && bound <= EXACT {
-        if let Some(places) = Places::new(packing, &degrees(), products) {
-            let (left, right) =
-                (places.terms(packing, left, a.iter().copied()), places.terms(packing, right, b.iter().copied()));
-            let terms = at_places(&places, &left, &right)?;
-            return Some((places.monomials(&terms), coefficients(terms)));
-        }
+    if products > SORTED
+        && bound <= EXACT
+        && let Some(places) = Places::new(packing, &degrees(), products)
+    {
+        let left = places.terms(packing, left, a.iter().copied());
+        let right = places.terms(packing, right, b.iter().copied());
+        let terms = at_places(&places, &left, &right)?;
+        return Some((places.monomials(&terms), coefficients(terms)));
     }
     if products > TABLED {
         return None;
