@@ -59,7 +59,8 @@ impl Begun<'_> {
 /// Returns whether JSON writes these characters as they are.
 fn is_plain(text: &str) -> bool {
     // All bytes are looked at, so that many are at a time.
-    text.bytes().fold(true, |is_plain, byte| is_plain & (byte >= b' ') & (byte != b'"') & (byte != b'\\'))
+    let special = |byte: u8| u8::from(byte < b' ') | u8::from(byte == b'"') | u8::from(byte == b'\\');
+    text.bytes().fold(0, |found, byte| found | special(byte)) == 0
 }
 
 impl<'a> Serializer for Writer<'a> {
