@@ -36,7 +36,7 @@ impl TaskArm {
         // What is worse conditioned may be near a self-motion of the conditions that is none of the arm, and says nothing of the pose.
         let within = tolerance.angle.max(tolerance.length / self.forward.reach().max(f64::MIN_POSITIVE));
         let is_regular = |found: &Found| found.mode.condition < CONDITION / within;
-        let mut best: Option<Solution> = None;
+        let (mut best, mut sure) = (None, None);
         let rank = |own: &Solution| (own.modes.len(), is_answer(own));
         let take = |judged: Solution, best: &mut Option<Solution>| {
             if best.as_ref().is_none_or(|best| rank(&judged) > rank(best)) {
@@ -48,13 +48,16 @@ impl TaskArm {
             let Some((solution, found)) = self.by_closed_form(inner, case, pose, with)? else { continue };
             let is_regular = found.iter().all(is_regular);
             let judged = self.judged(solution, found, filled, pose, tolerance);
-            if is_regular {
+            // Where all solutions of the conditions are complex, others may have a real one that shows how far the pose is.
+            if is_regular && (!judged.modes.is_empty() || shows_nearest(&judged)) {
                 return Ok(judged);
             }
-            take(judged, &mut best);
+            let kept = if is_regular { &mut sure } else { &mut best };
+            take(judged, kept);
         }
-        if let Some(best) = best.take_if(|best| !best.modes.is_empty()) {
-            return Ok(best);
+        let is_listed = |best: &mut Solution| !best.modes.is_empty();
+        if let Some(known) = best.take_if(is_listed).or(sure) {
+            return Ok(known);
         }
         for (filled, inner) in choices {
             let (solution, found) = self.by(inner, case, pose, with)?;
@@ -232,6 +235,11 @@ impl TaskArm {
         other.miss.position - slack.position - rounding > tolerance.length
             || other.miss.orientation - slack.orientation - ROUNDING > tolerance.angle
     }
+}
+
+/// Whether an answer says which configuration is nearest to the pose.
+fn shows_nearest(own: &Solution) -> bool {
+    own.arm.as_ref().is_some_and(|arm| arm.nearest.is_some())
 }
 
 /// Whether a list is one that its verdict is sure of.
