@@ -19,6 +19,9 @@ const NEARLY_REAL: f64 = 1e-3;
 const SAME: f64 = 1e-5;
 /// Largest condition number of a solution of the conditions, times the tolerance, that is surely apart from their self-motions.
 const CONDITION: f64 = 1e-3;
+/// Choices of conditions without a real solution after which no more are tried: at a pose that is reached others have one, and each takes
+/// up to a tenth of a second.
+const EMPTY: usize = 3;
 /// Rounding of a miss that was measured in f64, in parts of the reach.
 const ROUNDING: f64 = 1e-13;
 
@@ -36,8 +39,8 @@ impl TaskArm {
         // What is worse conditioned may be near a self-motion of the conditions that is none of the arm, and says nothing of the pose.
         let within = tolerance.angle.max(tolerance.length / self.forward.reach().max(f64::MIN_POSITIVE));
         let is_regular = |found: &Found| found.mode.condition < CONDITION / within;
-        let (mut best, mut sure) = (None, None);
-        let rank = |own: &Solution| (own.modes.len(), is_answer(own));
+        let (mut best, mut none) = (None::<Solution>, None::<Solution>);
+        let rank = |own: &Solution| (own.modes.len(), is_answer(own), shows_nearest(own));
         let take = |judged: Solution, best: &mut Option<Solution>| {
             if best.as_ref().is_none_or(|best| rank(&judged) > rank(best)) {
                 *best = Some(judged);
@@ -46,29 +49,43 @@ impl TaskArm {
         // Closed forms first: where they fail, the other ways take a hundred times as long.
         for (filled, inner) in choices {
             let Some((solution, found)) = self.by_closed_form(inner, case, pose, with)? else { continue };
-            let is_regular = found.iter().all(is_regular);
+            let is_regular = !found.is_empty() && found.iter().all(is_regular);
             let judged = self.judged(solution, found, filled, pose, tolerance);
-            // Where all solutions of the conditions are complex, others may have a real one that shows how far the pose is.
-            if is_regular && (!judged.modes.is_empty() || shows_nearest(&judged)) {
+            if is_regular && is_listed(&judged) {
                 return Ok(judged);
             }
-            let kept = if is_regular { &mut sure } else { &mut best };
-            take(judged, kept);
+            // Where all solutions of the conditions are complex, others may have a real one that shows how far the pose is.
+            take(judged, if is_regular { &mut none } else { &mut best });
         }
-        let is_listed = |best: &mut Solution| !best.modes.is_empty();
-        if let Some(known) = best.take_if(is_listed).or(sure) {
+        if let Some(known) = best.take_if(|best| is_listed(best)).or_else(|| none.take()) {
             return Ok(known);
         }
+        let mut empty = 0;
         for (filled, inner) in choices {
             let (solution, found) = self.by(inner, case, pose, with)?;
+            // Without a solution nothing shows whether the conditions are regular: rounding takes double ones away.
+            let shows_nothing = found.is_empty() && solution.verdict.code != Code::OutOfReach;
             let is_regular = found.iter().all(is_regular);
             let judged = self.judged(solution, found, filled, pose, tolerance);
-            if is_answer(&judged) && is_regular {
+            let is_sure = is_answer(&judged) && is_regular;
+            if is_sure && is_listed(&judged) {
                 return Ok(judged);
             }
-            take(judged, &mut best);
+            let has_best = best.as_ref().is_some_and(is_listed);
+            if is_sure && has_best {
+                break;
+            }
+            if is_sure && !shows_nothing {
+                return Ok(judged);
+            }
+            take(judged, if is_sure { &mut none } else { &mut best });
+            empty += usize::from(shows_nothing);
+            if empty == EMPTY {
+                break;
+            }
         }
-        best.ok_or_else(|| crate::error::Error::Unsupported("no choice of conditions is regular".to_owned()))
+        let known = best.take_if(|best| is_listed(best)).or(none).or(best);
+        known.ok_or_else(|| crate::error::Error::Unsupported("no choice of conditions is regular".to_owned()))
     }
 
     /// The solutions of the conditions as those of the pose.
@@ -235,6 +252,11 @@ impl TaskArm {
         other.miss.position - slack.position - rounding > tolerance.length
             || other.miss.orientation - slack.orientation - ROUNDING > tolerance.angle
     }
+}
+
+/// Whether an answer lists a configuration.
+fn is_listed(own: &Solution) -> bool {
+    !own.modes.is_empty() || !own.families.is_empty()
 }
 
 /// Whether an answer says which configuration is nearest to the pose.
