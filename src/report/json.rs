@@ -97,7 +97,7 @@ impl Answer<'_> {
     /// Returns the answer as a line of text, with its end.
     ///
     /// # Errors
-    /// As [`super::line::append`].
+    /// For values that JSON does not have.
     pub fn line(&self) -> serde_json::Result<Vec<u8>> {
         let mut text = Vec::with_capacity(ANSWER_BYTES + MODE_BYTES * self.solution.modes.len());
         line::append(self, &mut text)?;
