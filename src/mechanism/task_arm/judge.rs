@@ -84,7 +84,8 @@ impl TaskArm {
                 break;
             }
         }
-        let known = best.take_if(|best| is_listed(best)).or(none).or(best);
+        let says_more = |best: &mut Solution| is_listed(best) || is_answer(best) && shows_nearest(best);
+        let known = best.take_if(says_more).or(none).or(best);
         known.ok_or_else(|| crate::error::Error::Unsupported("no choice of conditions is regular".to_owned()))
     }
 
