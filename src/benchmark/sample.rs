@@ -8,6 +8,7 @@ use crate::kinematics::closed_loop::{Layout, OpenLoop, Variable, angle_motion, d
 use crate::kinematics::motion::Motion;
 use crate::kinematics::platform_limits::PlatformLimits;
 use crate::solve::newton::closure;
+use looproot_calculus::finite::finite;
 use nalgebra::Matrix6;
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
@@ -313,7 +314,7 @@ fn jacobian(open: &OpenLoop<f64>, q: &[f64; 6]) -> Matrix6<f64> {
 }
 
 fn regularity(open: &OpenLoop<f64>, q: &[f64; 6]) -> f64 {
-    let values = jacobian(open, q).singular_values();
+    let values = finite(jacobian(open, q)).singular_values();
     values.min() / values.max()
 }
 

@@ -5,6 +5,7 @@ use crate::algebra::number::nearest_f64;
 use crate::error::{Error, Result};
 use crate::kinematics::motion::{Motion, Vector, cross, dot};
 use crate::verdict::Code;
+use looproot_calculus::finite::finite;
 use looproot_calculus::rotation::calibration::{Translation, nearest, residual, translation};
 use looproot_calculus::rotation::matrix::{Matrix, from_matrix};
 use looproot_calculus::rotation::positions::{is_rotation, taking};
@@ -173,7 +174,7 @@ fn sample(a: &Motion<Rational>, b: &Motion<Rational>) -> Option<Value> {
     let rows = nalgebra::Matrix3::from_fn(|i, j| pairs[0].0.rotation[i][j] - f64::from(u8::from(i == j)));
     let turned = looproot_calculus::rotation::matrix::apply(&rotation, &pairs[0].1.translation);
     let right = nalgebra::Vector3::from_fn(|i, _| turned[i] - pairs[0].0.translation[i]);
-    let t = rows.svd(true, true).solve(&right, 1e-9).ok()?;
+    let t = finite(rows).svd(true, true).solve(&right, 1e-9).ok()?;
     let x = Motion { rotation, translation: [t[0], t[1], t[2]] };
     let mut values = Map::new();
     insert_motion(&mut values, &x);

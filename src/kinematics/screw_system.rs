@@ -6,6 +6,7 @@ use super::motion::{Vector, cross, dot};
 use crate::algebra::echelon::Echelon;
 use crate::algebra::ring::{Field, Ring};
 use crate::algebra::sort;
+use looproot_calculus::finite::finite;
 use nalgebra::DMatrix;
 
 /// Squared directions below this share of the largest belong to translations.
@@ -346,7 +347,7 @@ impl ScrewSystem<f64> {
         let direction = DMatrix::from_fn(3, size, |k, j| basis[j].direction[k]);
         let moment = DMatrix::from_fn(3, size, |k, j| basis[j].moment[k]);
         // Directions are orthogonal along the eigenvectors of G.
-        let gram = (direction.transpose() * &direction).symmetric_eigen();
+        let gram = finite(direction.transpose() * &direction).symmetric_eigen();
         let largest = gram.eigenvalues.amax();
         let scale = moment.amax().max(direction.amax());
         let is_translation = |k: usize| gram.eigenvalues[k] <= TRANSLATION * largest.max(TRANSLATION * scale * scale);
@@ -362,14 +363,14 @@ impl ScrewSystem<f64> {
         let mut moments = &moment * &unit;
         if !still.is_empty() {
             // A basis of the span of the translations, to take its part out of the moments.
-            let span = translations.svd(true, false);
+            let span = finite(translations).svd(true, false);
             if let Some(u) = span.u {
                 moments -= &u * (u.transpose() * &moments);
             }
         }
         let directions = &direction * &unit;
         let form = directions.transpose() * &moments;
-        let pitches = ((&form + form.transpose()) * 0.5).symmetric_eigen();
+        let pitches = finite((&form + form.transpose()) * 0.5).symmetric_eigen();
         let (directions, moments) = (directions * &pitches.eigenvectors, moments * &pitches.eigenvectors);
         let column = |m: &DMatrix<f64>, j: usize| std::array::from_fn(|k| m[(k, j)]);
         let mut found: Vec<PrincipalScrew> = (0..turning.len())

@@ -3,6 +3,7 @@
 use super::motion::{Motion, Vector, cross};
 use super::platform::Platform;
 use crate::algebra::ring::Ring;
+use looproot_calculus::finite::finite;
 use nalgebra::{Matrix6, Vector6};
 
 /// Below this ratio of the singular values there is no velocity to speak of.
@@ -52,7 +53,7 @@ pub fn velocity(platform: &Platform<f64>, pose: &Motion<f64>) -> Velocity {
         let entry = if k < 3 { screws[i][k] } else { screws[i][k] / size };
         if length > 0.0 { entry / length } else { 0.0 }
     });
-    let mut singular_values: [f64; 6] = jacobian.singular_values().into();
+    let mut singular_values: [f64; 6] = finite(jacobian).singular_values().into();
     singular_values.sort_by(|a, b| b.total_cmp(a));
     let regular = singular_values[5] > SINGULAR * singular_values[0];
     let inverse = if regular { jacobian.try_inverse() } else { None };

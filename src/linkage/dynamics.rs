@@ -10,6 +10,7 @@ use crate::kinematics::linkage::{Given, Linkage, Pair};
 use differential_equations::ivp::IVP;
 use differential_equations::methods::ExplicitRungeKutta;
 use differential_equations::ode::ODE;
+use looproot_calculus::finite::finite;
 use nalgebra::{DMatrix, DVector};
 
 /// Most parts of the time between two rows, behind each of which loops are closed again.
@@ -257,7 +258,7 @@ impl Loaded<'_> {
             let open = open(self.linkage, &now);
             let gaps = DVector::from_vec(open.iter().map(|s| s.coefficients[0]).collect());
             let j = jacobian(self.linkage, &now, &|bodies| super::rates::open(self.linkage, bodies));
-            let svd = j.clone().svd(true, true);
+            let svd = finite(j.clone()).svd(true, true);
             let small = SINGULAR * svd.singular_values.max();
             next -= svd.solve(&gaps, small).ok()?;
             rate -= svd.solve(&(j * &rate), small).ok()?;

@@ -18,6 +18,7 @@ use crate::algebra::univariate::Univariate;
 use crate::exact::{Isolated, isolated_roots};
 use crate::kinematics::linkage::Gaussian;
 use crate::solve::hessenberg::Hessenberg;
+use looproot_calculus::finite::finite;
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex;
 use rug::{Float, Rational};
@@ -511,7 +512,7 @@ fn start(
         let b = DVector::from_fn(rows, |k, _| {
             -told.iter().map(|j| part(&equations.cycles[k % loops][*j], turns[*j], k)).sum::<Complex<f64>>()
         });
-        let solved: Vec<Complex<f64>> = a.svd(true, true).solve(&b, 1e-12).ok()?.iter().copied().collect();
+        let solved: Vec<Complex<f64>> = finite(a).svd(true, true).solve(&b, 1e-12).ok()?.iter().copied().collect();
         untold.iter().zip(&solved).for_each(|(class, turn)| turns[*class] = *turn);
         return is_torus(&turns).then(|| (turns, solved[untold.len()..].to_vec()));
     }

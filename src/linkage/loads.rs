@@ -7,6 +7,7 @@
 use super::dynamics::{Reaction, of_joints};
 use super::rates::{Body, Moving, freedoms, jacobian, moved, moving, open, prescribed};
 use crate::kinematics::linkage::{Given, Linkage};
+use looproot_calculus::finite::finite;
 use nalgebra::DVector;
 
 /// A singular value below this share of the largest one stands for 0.
@@ -84,7 +85,7 @@ pub fn balance(linkage: &Linkage, given: &[Given], rest: &[Body], loads: &[Plane
     let jacobian = jacobian(linkage, rest, &equations);
     // More equations than unknowns: forces of some joints could be exchanged for those of others.
     let joints = (jacobian.nrows() == jacobian.ncols()).then(|| {
-        let svd = jacobian.transpose().svd(true, true);
+        let svd = finite(jacobian.transpose()).svd(true, true);
         let is_regular = svd.singular_values.min() > SINGULAR * svd.singular_values.max();
         let found = svd.solve(&-weight, 0.0).ok().filter(|_| is_regular)?;
         Some(of_joints(linkage, rest, &found))

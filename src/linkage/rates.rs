@@ -8,6 +8,7 @@ use crate::algebra::number::nearest_f64;
 use crate::algebra::ring::Ring;
 use crate::algebra::series::Series;
 use crate::kinematics::linkage::{Gaussian, Given, Linkage, Pair};
+use looproot_calculus::finite::finite;
 use looproot_calculus::unit::Analytic;
 use nalgebra::{DMatrix, DVector};
 
@@ -178,7 +179,7 @@ pub fn movable(linkage: &Linkage, given: &[Given], rest: &[Body]) -> Vec<usize> 
     let matrix = jacobian(linkage, rest, &equations);
     // With fewer rows than columns a decomposition would not hold the whole null space.
     let rows = matrix.nrows().max(matrix.ncols());
-    let svd = matrix.resize_vertically(rows, 0.0).svd(false, true);
+    let svd = finite(matrix.resize_vertically(rows, 0.0)).svd(false, true);
     let Some(ways) = svd.v_t else { return Vec::new() };
     let largest = svd.singular_values.max();
     let free = (0..svd.singular_values.len()).filter(|k| svd.singular_values[*k] <= SINGULAR * largest);
@@ -206,7 +207,7 @@ pub fn movable(linkage: &Linkage, given: &[Given], rest: &[Body]) -> Vec<usize> 
 pub fn moving(linkage: &Linkage, given: &[Given], rest: &[Body], runs: &[Moving]) -> Option<Vec<Body>> {
     let equations = |bodies: &[Body]| [open(linkage, bodies), prescribed(linkage, given, bodies)].concat();
     let matrix = jacobian(linkage, rest, &equations);
-    let svd = matrix.svd(true, true);
+    let svd = finite(matrix).svd(true, true);
     let largest = svd.singular_values.max();
     let unknowns = 3 * moved(linkage).len();
     if svd.singular_values.len() < unknowns || !(svd.singular_values.min() > SINGULAR * largest) {

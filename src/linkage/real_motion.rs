@@ -9,6 +9,7 @@ use super::quadratic::Root;
 use super::real_system::RealSystem;
 use crate::algebra::groebner::{Basis, Equation};
 use crate::algebra::ring::Ring;
+use looproot_calculus::finite::finite;
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex;
 use rand::{Rng, SeedableRng};
@@ -190,14 +191,14 @@ fn improved(system: &RealSystem, mut x: Vec<f64>) -> Option<Point> {
     };
     for _ in 0..STEPS {
         let (gap, matrix) = at(&x);
-        let step = matrix.svd(true, true).solve(&gap, 1e-12).ok()?;
+        let step = finite(matrix).svd(true, true).solve(&gap, 1e-12).ok()?;
         x.iter_mut().zip(step.iter()).for_each(|(x, step)| *x -= step);
         if x.iter().any(|x| !x.is_finite()) {
             return None;
         }
     }
     let (gap, matrix) = at(&x);
-    let svd = matrix.svd(false, true);
+    let svd = finite(matrix).svd(false, true);
     let largest = svd.singular_values.max();
     let v = svd.v_t.as_ref()?;
     let free = (0..svd.singular_values.len()).filter(|k| svd.singular_values[*k] <= SINGULAR * largest);

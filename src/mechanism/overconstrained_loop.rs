@@ -24,6 +24,7 @@ use crate::kinematics::motion::Motion;
 use crate::solve::newton::{Six, closure};
 use crate::solve::singular::structural_rank;
 use crate::verdict::{Code, Proof, Status, Verdict};
+use looproot_calculus::finite::finite;
 use nalgebra::{SMatrix, SVector};
 use num_complex::Complex;
 use rug::Rational;
@@ -669,7 +670,7 @@ fn closer(
     for _ in 0..POLISHINGS {
         let matrix =
             SMatrix::<Complex<f64>, 6, 6>::from_fn(|i, j| if is_idle[j] { Complex::ZERO } else { here.jacobian[i][j] });
-        let svd = matrix.svd(true, true);
+        let svd = finite(matrix).svd(true, true);
         let Ok(step) = svd.solve(&SVector::from(here.residual), RANK * svd.singular_values.max()) else { break };
         let next = std::array::from_fn(|k| {
             let moved = at[k] - step[k];

@@ -6,6 +6,7 @@ use crate::exact::linkage::{Axis, JointValue, Linkage};
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::dual_quaternion::DualQuaternion;
 use crate::kinematics::motion::dot;
+use looproot_calculus::finite::finite;
 use nalgebra::{DMatrix, DVector};
 use rug::Rational;
 use std::f64::consts::PI;
@@ -159,7 +160,7 @@ impl Curve<'_> {
         if !matrix.iter().all(|x| x.is_finite()) {
             return None;
         }
-        let svd = matrix.svd(false, true);
+        let svd = finite(matrix).svd(false, true);
         let (values, rows) = (svd.singular_values, svd.v_t?);
         let least = MOTION * values.amax();
         let ahead = match before {
@@ -180,7 +181,7 @@ impl Curve<'_> {
             if !matrix.iter().chain(&right).all(|x| x.is_finite()) {
                 return None;
             }
-            let svd = matrix.svd(true, true);
+            let svd = finite(matrix).svd(true, true);
             let least = MOTION * svd.singular_values.amax();
             at -= svd.solve(&right, least).ok()?;
         }

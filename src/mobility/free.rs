@@ -18,6 +18,7 @@ use crate::kinematics::motion::{Motion, Vector, dot};
 use crate::mechanism::FullMode;
 use crate::solve::newton::approach;
 use crate::verdict::{Code, Proof, Status};
+use looproot_calculus::finite::finite;
 use nalgebra::DVector;
 use num_complex::Complex;
 use rug::{Float, Rational};
@@ -292,7 +293,7 @@ impl<'a> Assembler<'a> {
             if residual < CLOSED / 100.0 {
                 break;
             }
-            let svd = matrix.svd(true, true);
+            let svd = finite(matrix).svd(true, true);
             let least = 1e-10 * svd.singular_values.amax();
             let Ok(step) = svd.solve(&right, least) else { break };
             let length = step.norm();

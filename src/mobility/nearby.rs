@@ -4,6 +4,7 @@ use super::branches::{Curve, floating};
 use crate::exact::linkage::{Linkage, Study, equations, one, times};
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::dual_quaternion::DualQuaternion;
+use looproot_calculus::finite::finite;
 use nalgebra::{DMatrix, DVector};
 use rug::Rational;
 use std::f64::consts::PI;
@@ -77,7 +78,7 @@ impl Approach {
                 return (at, f64::INFINITY);
             }
             left = right.amax();
-            let svd = matrix.remove_column(held).svd(true, true);
+            let svd = finite(matrix.remove_column(held)).svd(true, true);
             let least = LEAST * svd.singular_values.amax();
             let Ok(step) = svd.solve(&right, least) else { break };
             let step = step.insert_row(held, 0.0);
@@ -147,7 +148,7 @@ impl Approach {
             if largest < CLOSED / 10.0 {
                 break;
             }
-            let svd = matrix.svd(true, true);
+            let svd = finite(matrix).svd(true, true);
             let least = LEAST * svd.singular_values.amax();
             let step = svd.solve(&right, least).ok()?;
             for (p, at) in places.iter_mut().enumerate() {

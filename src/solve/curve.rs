@@ -9,6 +9,7 @@ use crate::algebra::series::Series;
 use crate::algebra::sort;
 use crate::kinematics::closed_loop::{ClosedLoop, OpenLoop, Variable};
 use crate::kinematics::motion::{Motion, cross, unit_near};
+use looproot_calculus::finite::finite;
 use nalgebra::SMatrix;
 
 /// Seven joint variables: the six unknowns in loop order, then the input. Lengths over the scale of the loop.
@@ -215,7 +216,7 @@ impl Curve {
             return Some(found);
         }
         let matrix = SMatrix::<f64, 7, 7>::from_fn(|i, j| if self.idle[j] { 0.0 } else { bordered[i][j] });
-        let svd = matrix.svd(true, true);
+        let svd = finite(matrix).svd(true, true);
         let least = RANK * svd.singular_values.max();
         if svd.rank(least) < moving {
             return None;
@@ -352,7 +353,7 @@ impl Curve {
         }
         let jacobian = self.here(at).jacobian;
         let matrix = SMatrix::<f64, 6, 7>::from_fn(|i, j| if self.idle[j] { 0.0 } else { jacobian[i][j] });
-        let mut values: Vec<f64> = matrix.singular_values().iter().copied().collect();
+        let mut values: Vec<f64> = finite(matrix).singular_values().iter().copied().collect();
         sort::by(&mut values, |a, b| b.total_cmp(a));
         values[moving - 1] > CLEAR * values[0]
     }

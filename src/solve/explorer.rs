@@ -6,6 +6,7 @@
 use super::curve::{Curve, Point};
 use super::walk::{Place, Trace, apart, dot, norm, step};
 use crate::algebra::sort;
+use looproot_calculus::finite::finite;
 use nalgebra::{SMatrix, SVector, Vector6};
 
 /// The Jacobian of seven variables, columns of idle ones zero.
@@ -180,7 +181,7 @@ impl<'a> Explorer<'a> {
     /// The second smallest singular value of the Jacobian of the variables that are not idle, in parts of the largest: that of a
     /// point of a curve is 0 where another one meets it.
     fn second(&self, at: &Point) -> f64 {
-        let mut values: Vec<f64> = self.matrix(at).singular_values().iter().copied().collect();
+        let mut values: Vec<f64> = finite(self.matrix(at)).singular_values().iter().copied().collect();
         sort::by(&mut values, |a, b| b.total_cmp(a));
         values[self.unknowns - 2] / values[0]
     }
@@ -215,7 +216,7 @@ impl<'a> Explorer<'a> {
     }
 
     fn rank(&self, at: &Point) -> Rank {
-        let svd = self.matrix(at).transpose().svd(true, false);
+        let svd = finite(self.matrix(at).transpose()).svd(true, false);
         let values = svd.singular_values;
         let mut order: [usize; 6] = std::array::from_fn(|k| k);
         sort::by(&mut order, |&a, &b| values[b].total_cmp(&values[a]));
@@ -271,7 +272,7 @@ impl<'a> Explorer<'a> {
                 break;
             }
             last = closing.defect;
-            let svd = self.matrix(at).svd(true, true);
+            let svd = finite(self.matrix(at)).svd(true, true);
             let mut values: Vec<f64> = svd.singular_values.iter().copied().collect();
             sort::by(&mut values, |a, b| b.total_cmp(a));
             // The cut keeps as many directions as the solution set leaves transversal ones.
@@ -428,7 +429,7 @@ impl<'a> Explorer<'a> {
                 }
             }
         }
-        let spreads: Vec<f64> = moment.symmetric_eigenvalues().iter().map(|x| x.max(0.0).sqrt()).collect();
+        let spreads: Vec<f64> = finite(moment).symmetric_eigenvalues().iter().map(|x| x.max(0.0).sqrt()).collect();
         let largest = spreads.iter().copied().fold(0.0, f64::max);
         let dimension = spreads.iter().filter(|spread| **spread > SPREAD * largest).count();
         Some(dimension.clamp(1, corank))

@@ -8,6 +8,7 @@ use super::dense::{inverse, times};
 use super::newton::{Six, closure};
 use super::scalar::Scalar;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
+use looproot_calculus::finite::finite;
 use nalgebra::Matrix6;
 use num_complex::Complex;
 
@@ -161,7 +162,7 @@ pub fn structural_rank(closed: &ClosedLoop<f64>) -> usize {
             let q = spread(&closed.variables, trial);
             let here = closure(closed, &q);
             let matrix = Matrix6::from_fn(|i, j| here.jacobian[i][j]);
-            let values = matrix.singular_values();
+            let values = finite(matrix).singular_values();
             let largest = values.max();
             values.iter().filter(|&&v| v > 1e-12 * largest).count()
         })

@@ -102,3 +102,20 @@ fn conditions_that_are_singular_at_a_pose_do_not_hide_its_solutions() {
         }
     }
 }
+
+#[test]
+fn poses_far_beyond_every_arm_have_an_answer() {
+    for name in ["puma560", "ur5e", "irb120"] {
+        let arm = Arm::robot(name).unwrap();
+        let near = arm.fk(&[0.2, 0.5, 0.8, 1.1, 1.4, 1.7]).unwrap();
+        for distance in [1e20, 1e60, 1e100, 1e150] {
+            for axis in 0..3 {
+                let mut pose = near;
+                pose[axis][3] = distance;
+                let answer = arm.ik(&pose).unwrap();
+                assert!(answer.modes.is_empty(), "{name}, {distance:e} along axis {axis}: {}", answer.verdict.reason);
+                assert_ne!(answer.verdict.status, Status::Complete, "{name}: {}", answer.verdict.reason);
+            }
+        }
+    }
+}

@@ -8,6 +8,7 @@
 //! [`instant`], 11 is [`tree`].
 
 pub mod displacement;
+pub mod finite;
 pub mod instant;
 pub mod line;
 pub mod motion;

@@ -8,6 +8,7 @@ use super::search::{Search, real_parts};
 use crate::closure::study::Leg;
 use crate::solve::dense::inverse;
 use crate::solve::pose::{Eight, Equations, PolishedPose, equations, normalised, patch};
+use looproot_calculus::finite::finite;
 use nalgebra::{SMatrix, SVector};
 use num_complex::Complex;
 
@@ -61,7 +62,7 @@ fn pose(legs: &[Leg<f64>; 6], start: &Eight<f64>) -> Option<(Eight<f64>, Equatio
                 matrix[(ROWS + k - 8, j)] = here.jacobian[k][j];
             }
         }
-        let svd = matrix.svd(true, true);
+        let svd = finite(matrix).svd(true, true);
         let step = svd.solve(&values, RANK * svd.singular_values.max()).ok()?;
         v = normalised(&std::array::from_fn(|k| v[k] - step[k]))?;
         let moved = (0..8).map(|k| (v[k] - begin[k]).abs()).fold(0.0, f64::max);

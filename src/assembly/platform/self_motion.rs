@@ -4,6 +4,7 @@ use super::prepared::norm;
 use crate::closure::study::Leg;
 use crate::solve::pose::{Eight, equations, normalised, patch};
 use crate::solve::scalar::{Number, Scalar};
+use looproot_calculus::finite::finite;
 use nalgebra::{ComplexField, SMatrix, SVector};
 
 /// Singular values below this part of the largest one count as zero.
@@ -37,7 +38,7 @@ pub fn project<S: Numeric>(legs: &[Leg<f64>; 6], start: &Eight<S>) -> Option<Eig
         if here.residual() < CLOSED && here.values[6].size() < CLOSED {
             return Some(v);
         }
-        let svd = SMatrix::<S, 8, 8>::from_fn(|i, j| here.jacobian[i][j]).svd(true, true);
+        let svd = finite(SMatrix::<S, 8, 8>::from_fn(|i, j| here.jacobian[i][j])).svd(true, true);
         let cut = NEGLIGIBLE * svd.singular_values.max();
         let step = svd.solve(&SVector::<S, 8>::from(here.values), cut).ok()?;
         for k in 0..8 {
@@ -51,7 +52,7 @@ pub fn project<S: Numeric>(legs: &[Leg<f64>; 6], start: &Eight<S>) -> Option<Eig
 /// Returns the null directions of the equations at a pose.
 fn kernel<S: Numeric>(legs: &[Leg<f64>; 6], v: &Eight<S>) -> impl Iterator<Item = Eight<S>> {
     let here = equations(legs, v, &patch(v));
-    let svd = SMatrix::<S, 8, 8>::from_fn(|i, j| here.jacobian[i][j]).svd(false, true);
+    let svd = finite(SMatrix::<S, 8, 8>::from_fn(|i, j| here.jacobian[i][j])).svd(false, true);
     let (values, rows) = (svd.singular_values, svd.v_t);
     let cut = RANK * values.max();
     (0..8)
@@ -123,5 +124,5 @@ pub fn self_motion<S: Numeric>(legs: &[Leg<f64>; 6], start: &Eight<S>) -> usize 
             }
         }
     }
-    moved.svd(false, false).singular_values.iter().filter(|&&size| size > MOVED * STEP).count()
+    finite(moved).svd(false, false).singular_values.iter().filter(|&&size| size > MOVED * STEP).count()
 }

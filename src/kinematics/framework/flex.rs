@@ -1,6 +1,7 @@
 //! A motion of a framework followed in f64, and the error of the lengths along it.
 
 use super::Framework;
+use looproot_calculus::finite::finite;
 use nalgebra::{DMatrix, DVector};
 
 /// Singular values below this share of the largest one belong to motions.
@@ -164,7 +165,7 @@ fn tangent_space(framework: &Framework<f64>) -> (Vec<DVector<f64>>, usize) {
     if !is_finite(&matrix) {
         return (Vec::new(), 0);
     }
-    let svd = matrix.svd(false, true);
+    let svd = finite(matrix).svd(false, true);
     let largest = svd.singular_values.amax();
     let Some(v) = svd.v_t else { return (Vec::new(), 0) };
     let motions: Vec<DVector<f64>> = svd
@@ -188,7 +189,7 @@ fn corrected(framework: &Framework<f64>, squares: &[f64]) -> Option<Framework<f6
     if !is_finite(&matrix) || !right.iter().all(|x| x.is_finite()) {
         return None;
     }
-    let svd = matrix.svd(true, true);
+    let svd = finite(matrix).svd(true, true);
     let least = MOTION * svd.singular_values.amax();
     let step = svd.solve(&right, least).ok()?;
     let state: Vec<f64> = framework.state().iter().zip(step.iter()).map(|(x, d)| x + d).collect();

@@ -12,6 +12,7 @@ use crate::kinematics::motion::{Motion, Vector, cross, dot};
 use crate::kinematics::space::{SpaceGiven, SpaceJoint, SpaceLinkage, SpacePair};
 use crate::mechanism::Moving;
 use looproot_calculus::displacement::velocity::State;
+use looproot_calculus::finite::finite;
 use looproot_calculus::unit::Root;
 use nalgebra::{DMatrix, DVector};
 use rug::Rational;
@@ -74,7 +75,7 @@ pub fn rates(linkage: &SpaceLinkage, given: &[SpaceGiven], mode: &SpaceMode) -> 
             matrix[(still.len() + row, 6 * body + part)] = axis[part];
         }
     }
-    let svd = matrix.clone().svd(true, true);
+    let svd = finite(matrix.clone()).svd(true, true);
     if svd.singular_values.len() < 6 * moved.len()
         || !(svd.singular_values.min() > SINGULAR * svd.singular_values.max())
     {

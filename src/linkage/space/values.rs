@@ -9,6 +9,7 @@ use crate::algebra::ring::Ring;
 use crate::kinematics::motion::{Motion, Vector, cross, dot};
 use crate::kinematics::space::{Axis, SpaceGiven, SpaceJoint, SpaceLinkage, SpacePair};
 use crate::linkage::isotropic::middle;
+use looproot_calculus::finite::finite;
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex;
 use rand::{Rng, SeedableRng};
@@ -216,7 +217,7 @@ pub(super) fn real_point(
         let mut x: Vec<f64> = (0..system.unknowns).map(|_| spread * random.random_range(-1.0..1.0)).collect();
         for _ in 0..STEPS {
             let (gap, matrix) = at(&x);
-            let Ok(step) = matrix.svd(true, true).solve(&gap, 1e-12) else { break };
+            let Ok(step) = finite(matrix).svd(true, true).solve(&gap, 1e-12) else { break };
             x.iter_mut().zip(step.iter()).for_each(|(x, step)| *x -= step);
             if x.iter().any(|x| !x.is_finite()) {
                 break;
@@ -226,7 +227,7 @@ pub(super) fn real_point(
             continue;
         }
         let (gap, matrix) = at(&x);
-        let svd = matrix.svd(false, true);
+        let svd = finite(matrix).svd(false, true);
         let largest = svd.singular_values.max();
         let rank = svd.singular_values.iter().filter(|s| **s > SINGULAR * largest).count();
         if gap.amax() > CLOSED * spread * spread || rank >= system.unknowns {

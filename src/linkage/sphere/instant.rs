@@ -9,6 +9,7 @@ use crate::kinematics::motion::{Motion, Vector, cross, dot};
 use crate::kinematics::sphere::{SphereGiven, SphereLinkage};
 use crate::mechanism::Moving;
 use looproot_calculus::displacement::velocity::State;
+use looproot_calculus::finite::finite;
 use looproot_calculus::rotation::matrix::apply;
 use nalgebra::{DMatrix, DVector};
 
@@ -54,7 +55,7 @@ pub fn rates(linkage: &SphereLinkage, given: &[SphereGiven], mode: &SphereMode) 
         }
     }
     let matrix = DMatrix::from_fn(system.rows.len(), columns, |i, j| system.rows[i][j]);
-    let svd = matrix.clone().svd(true, true);
+    let svd = finite(matrix.clone()).svd(true, true);
     if svd.singular_values.len() < columns || !(svd.singular_values.min() > SINGULAR * svd.singular_values.max()) {
         return None;
     }

@@ -5,6 +5,7 @@ use crate::algebra::number::nearest_f64;
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::motion::{Motion, cross};
 use crate::solve::scalar::Scalar;
+use looproot_calculus::finite::finite;
 use nalgebra::DMatrix;
 use num_complex::Complex;
 use rug::Rational;
@@ -49,7 +50,7 @@ pub(super) fn measure(cycle: &Cycle, values: &[Complex<f64>], unit: f64) -> (f64
     let turned = if cycle.before.is_some() { 0.0 } else { turned.fold(0.0, f64::max) };
     let residual = frame.translation.iter().map(|x| x.norm()).fold(turned, f64::max);
     let matrix = DMatrix::from_fn(6, columns.len(), |i, j| columns[j][i]);
-    let singular = matrix.singular_values();
+    let singular = finite(matrix).singular_values();
     // There are more columns than rows, or no columns at all.
     let is_full = columns.len() <= 6 && singular.min() > 0.0;
     (residual, if is_full { singular.max() / singular.min() } else { f64::INFINITY })

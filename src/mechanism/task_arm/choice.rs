@@ -5,6 +5,7 @@ use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::forward::{Forward, Twist};
 use crate::kinematics::motion::{Motion, Vector};
 use crate::kinematics::screws::{Behind, VirtualJoint};
+use looproot_calculus::finite::finite;
 use nalgebra::DMatrix;
 use std::f64::consts::PI;
 
@@ -99,7 +100,7 @@ impl Trial {
                 let kept = own.iter().enumerate().filter(|(k, _)| !left_out.contains(k)).map(|(_, column)| *column);
                 let filled = filled.iter().map(|joint| column(&twist(*joint, tool), self.reach));
                 let columns: Vec<[f64; 6]> = kept.chain(columns(task, tool, self.reach)).chain(filled).collect();
-                DMatrix::from_fn(6, columns.len(), |i, j| columns[j][i]).singular_values().min()
+                finite(DMatrix::from_fn(6, columns.len(), |i, j| columns[j][i])).singular_values().min()
             })
             .collect();
         values.sort_by(f64::total_cmp);

@@ -3,6 +3,7 @@
 use crate::kinematics::forward::Forward;
 use crate::kinematics::motion::Motion;
 use crate::kinematics::tolerance::{PoseError, Tolerance};
+use looproot_calculus::finite::finite;
 use nalgebra::{DMatrix, DVector};
 
 /// Steps of the search: each one squares what is missing, or halves it at a double root.
@@ -32,7 +33,7 @@ pub(super) fn nearest(
             0..3 => (wanted.translation[i] - reached.translation[i]) / tolerance.length,
             _ => turned[i - 3] / tolerance.angle,
         });
-        let svd = matrix.svd(true, true);
+        let svd = finite(matrix).svd(true, true);
         let Ok(step) = svd.solve(&residual, RANK * svd.singular_values.max()) else { break };
         // A step that does not help is halved; at the nearest configuration none helps.
         let tried = (0..6).map(|halvings| {

@@ -12,6 +12,7 @@ use crate::kinematics::forward::Forward;
 use crate::kinematics::screws::Held;
 use crate::mechanism::{Family, Solution};
 use crate::verdict::{Code, Proof, Status};
+use looproot_calculus::finite::finite;
 use nalgebra::DMatrix;
 use rug::Rational;
 use std::f64::consts::PI;
@@ -176,7 +177,7 @@ impl TaskArm {
         // A square matrix with rows of zeros has all its right singular vectors.
         let size = kept.len().max(6);
         let matrix = DMatrix::from_fn(size, kept.len(), |i, j| columns[kept[j]].get(i).copied().unwrap_or(0.0));
-        let svd = matrix.svd(false, true);
+        let svd = finite(matrix).svd(false, true);
         let Some(right) = svd.v_t else { return Vec::new() };
         let small: Vec<usize> =
             (0..right.nrows()).filter(|i| svd.singular_values[*i] < 1e-9 * svd.singular_values.max()).collect();

@@ -6,6 +6,7 @@
 use super::matrix::{Matrix, apply, from_matrix};
 use super::positions::nearest_rotation;
 use super::vectors::{euler_vectors, unit};
+use crate::finite::finite;
 use crate::motion::{Motion, Vector};
 use looproot_algebra::echelon::Echelon;
 use looproot_algebra::ring::Field;
@@ -73,7 +74,7 @@ pub fn nearest(pairs: &[(Motion<f64>, Motion<f64>)]) -> Option<Motion<f64>> {
         apply(&rotation, &pair.1.translation)[i] - pair.0.translation[i]
     });
     // Singular values below this part of the largest belong to directions that the pairs leave free.
-    let found = left.svd(true, true).solve(&right, 1e-9).ok()?;
+    let found = finite(left).svd(true, true).solve(&right, 1e-9).ok()?;
     Some(Motion { rotation, translation: [found[0], found[1], found[2]] })
 }
 

@@ -1,5 +1,6 @@
 //! Matrices of direction cosines. They act on columns: `r* = A r`, and their columns are the rotated base vectors.
 
+use crate::finite::finite;
 use crate::motion::{Vector, dot};
 use crate::quaternion::Quaternion;
 use crate::unit::Unit;
@@ -105,7 +106,7 @@ pub fn nearest(a: &Matrix<f64>) -> Option<(Matrix<f64>, f64)> {
         return None;
     }
     let given = Matrix3::from_fn(|i, j| a[i][j]);
-    let parts = given.svd(true, true);
+    let parts = finite(given).svd(true, true);
     let (u, v) = (parts.u?, parts.v_t?);
     let mut flip = Matrix3::identity();
     flip[(2, 2)] = (u * v).determinant().signum();

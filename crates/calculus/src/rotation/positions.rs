@@ -2,6 +2,7 @@
 
 use super::matrix::{Matrix, determinant, nearest};
 use super::vectors::unit;
+use crate::finite::finite;
 use crate::motion::{Vector, cross, dot};
 use crate::quaternion::Quaternion;
 use crate::unit::{Analytic, Root, Unit};
@@ -48,7 +49,7 @@ pub fn nearest_rotation(pairs: &[(Vector<f64>, Vector<f64>)]) -> Option<Matrix<f
     let product: Matrix<f64> = std::array::from_fn(|i| {
         std::array::from_fn(|j| pairs.iter().map(|(before, after)| after[i] * before[j]).sum())
     });
-    let singular = nalgebra::Matrix3::from_fn(|i, j| product[i][j]).singular_values();
+    let singular = finite(nalgebra::Matrix3::from_fn(|i, j| product[i][j])).singular_values();
     let largest = singular.max();
     // Two of the three singular values must exceed rounding.
     let clear = singular.iter().filter(|s| **s > 1e-12 * largest).count();
