@@ -112,7 +112,9 @@ impl Gap {
 }
 
 fn length(motion: &Motion<f64>) -> f64 {
-    motion.translation.iter().map(|x| x * x).sum::<f64>().sqrt()
+    let square: f64 = motion.translation.iter().map(|x| x * x).sum();
+    // The squares of lengths beyond 1e154 are infinite, they themselves are not.
+    if square.is_finite() { square.sqrt() } else { motion.translation.iter().fold(0.0, |sum: f64, x| sum.hypot(*x)) }
 }
 
 /// Memory reused from pose to pose: one per thread.

@@ -2,6 +2,7 @@
 
 mod closed_form;
 mod exact_roots;
+mod far_away;
 mod groups;
 mod real_list;
 
@@ -487,11 +488,7 @@ impl Question<'_> {
         };
         let (rank, general) = (self.rank(), self.prepared.general());
         let here = || if self.only_lists { None } else { self.count_here(assembly.total()) };
-        // What misses the pose by less than the tolerance is near.
-        let is_beyond =
-            |(gap, links): &(f64, f64)| self.tolerance.is_none_or(|own| gap - links > own.length + own.angle * links);
-        let too_far = solver.too_far(self.gap).filter(is_beyond);
-        verdict(assembly, roots, rank, general, everywhere, here, too_far)
+        verdict(assembly, roots, rank, general, everywhere, here, self.too_far())
     }
 
     /// Returns the number of solutions, where all are requested and some are missing.
@@ -584,6 +581,9 @@ impl Question<'_> {
     }
 
     fn verdict(&self, workspace: &mut Workspace, assembly: &mut Assembly) -> Verdict {
+        if let Some(verdict) = self.far_away(assembly) {
+            return verdict;
+        }
         if let Some(verdict) = self.by_longer_numbers(workspace, assembly) {
             return self.by_exact_roots(verdict, assembly).0;
         }

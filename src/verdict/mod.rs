@@ -133,23 +133,17 @@ pub fn verdict(
         let (by_high_precision, bits) = (assembly.by_high_precision, assembly.high_precision_bits);
         judged.reason += &format!("; {by_high_precision} of them found or proved in {bits}-bit arithmetic only");
     }
-    if let (Some((gap, links)), Status::Incomplete, 0) = (too_far, judged.status, assembly.real()) {
-        judged.status = Status::Unreachable;
-        (judged.proof, judged.code) = (Proof::Proved, Code::OutOfReach);
-        judged.reason = format!("out of reach: {gap:.4e} has to be bridged by links of {links:.4e} together");
+    if let (Some(distance), Status::Incomplete, 0) = (too_far, judged.status, assembly.real()) {
+        judged = Judged::out_of_reach(distance);
     }
-    Verdict {
-        status: judged.status,
-        proof: judged.proof,
-        code: judged.code,
-        complex_complete: judged.is_complete() && judged.code != Code::OutOfReach,
-        complex: assembly.total(),
-        real: assembly.real(),
-        at_infinity: judged.at_infinity,
-        self_motion: assembly.self_motion,
-        certified: certified(&assembly.modes),
-        reason: judged.reason,
-    }
+    judged.of(assembly)
+}
+
+/// Returns the verdict at a distance that the links cannot bridge, both given as [`verdict`] takes them; the list may hold complex
+/// modes.
+#[must_use]
+pub fn out_of_reach(distance: (f64, f64), assembly: &Assembly) -> Verdict {
+    Judged::out_of_reach(distance).of(assembly)
 }
 
 /// A status, what it rests on, and its reason.
@@ -169,6 +163,27 @@ impl Judged {
     /// A status that rests on a bound that is met.
     fn by(status: Status, bound: &Bound, reason: String) -> Self {
         Self { status, proof: bound.proof, code: bound.code, at_infinity: 0, reason }
+    }
+
+    fn out_of_reach((gap, links): (f64, f64)) -> Self {
+        let reason = format!("out of reach: {gap:.4e} has to be bridged by links of {links:.4e} together");
+        let (status, code) = (Status::Unreachable, Code::OutOfReach);
+        Self { status, proof: Proof::Proved, code, at_infinity: 0, reason }
+    }
+
+    fn of(self, assembly: &Assembly) -> Verdict {
+        Verdict {
+            status: self.status,
+            proof: self.proof,
+            code: self.code,
+            complex_complete: self.is_complete() && self.code != Code::OutOfReach,
+            complex: assembly.total(),
+            real: assembly.real(),
+            at_infinity: self.at_infinity,
+            self_motion: assembly.self_motion,
+            certified: certified(&assembly.modes),
+            reason: self.reason,
+        }
     }
 
     fn is_complete(&self) -> bool {
