@@ -74,7 +74,7 @@ for (const [name, verb] of [['arm/general_16real', 'an arm'], ['loop/rrsrr', 'a 
     await page.until("document.documentElement.dataset.live === 'true'");
     const begin = await page.value('performance.now()');
     // A person looks at the page first; meanwhile the solver is rehearsed, so that the browser has compiled it well.
-    await new Promise((resolve) => { setTimeout(resolve, 1500); });
+    await new Promise((resolve) => { setTimeout(resolve, 3000); });
     const rows = await page.value(ROWS);
     const limits = await page.value("[...document.querySelectorAll('input[type=range]')].map((r) => [Number(r.min), Number(r.max), Number(r.value)])");
     assert.ok(limits.length === (name.startsWith('loop') ? 2 : 7), 'a slider for every number, and that of families');

@@ -228,8 +228,8 @@ let module = null;
 let program = null;
 /** The number of commands that were asked for. */
 let asked = 0;
-/** How often a command is rehearsed, and for how many milliseconds: after thirty answers all of it is compiled well. */
-const [REHEARSALS, REHEARSED] = [30, 1000];
+/** How often a command is rehearsed, and for how many milliseconds: after a hundred answers all of it is compiled well. */
+const [REHEARSALS, REHEARSED] = [100, 3000];
 
 /** Runs one command, and begins another program where this one cannot go on. */
 async function answered({ args, files }) {

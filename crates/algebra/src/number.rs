@@ -424,7 +424,14 @@ impl Angle {
     fn rounded(enclosed: &Enclosure, digits: u32) -> Self {
         let radians = &Float::with_val(BITS, enclosed.middle());
         let tolerance = relative(digits + 1);
-        let tangent = Float::with_val(BITS, radians / 2_u32).tan();
+        let enclosed = enclosed.cos_sin_of();
+        let (cos, sin) = (enclosed.0.middle(), enclosed.1.middle());
+        // Of both quotients that are tan(x/2) the one without a small difference.
+        let tangent = if cos.is_sign_negative() {
+            Float::with_val(BITS, 1 - cos) / sin
+        } else {
+            Float::with_val(BITS, sin / Float::with_val(BITS, 1 + cos))
+        };
         // An error of d in the half-angle tangent t changes the angle by 2 d / (1 + t^2). Small angles are rounded relative to
         // themselves: a twist of 1e-17 is not 0.
         let distance_from_pi = Float::with_val(BITS, 2 / &tangent).abs();
@@ -435,8 +442,7 @@ impl Angle {
             let allowed = if tangent.clone().abs() < 1 { tangent.clone().abs() } else { allowed };
             HalfTangent::Finite(simplest_within(&tangent, &(allowed * tolerance)))
         };
-        let enclosed = enclosed.cos_sin_of();
-        let cos_sin = (enclosed.0.middle().to_f64(), enclosed.1.middle().to_f64());
+        let cos_sin = (cos.to_f64(), sin.to_f64());
         Self {
             radians: radians.to_f64(),
             cos_sin,
