@@ -41,6 +41,7 @@ mod srdf;
 mod synthesis;
 mod text;
 pub mod tile;
+pub mod turn;
 mod urdf;
 
 pub use calculus::CalculusFile;

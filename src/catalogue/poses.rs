@@ -4,7 +4,8 @@ use super::entry::{Case, Design};
 use super::job;
 use super::node;
 use super::scope::Scope;
-use crate::algebra::number::{Angle, Number, Quantity, Reading};
+use super::turn::turn;
+use crate::algebra::number::{Number, Quantity, Reading};
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Placement;
 use crate::kinematics::decimal::{Decimal, Plain};
@@ -207,7 +208,7 @@ impl<'a> PoseRows<'a> {
                 Placement::from_quaternion_position(&quaternion, &position()?)
             }
             Form::Angles => {
-                let angle = |k: usize| Angle::parse(&values[k], &self.reading);
+                let angle = |k: usize| turn(&values[k], &self.reading);
                 Ok((Placement::from_angles(&[angle(3)?, angle(4)?, angle(5)?], &position()?)?, None))
             }
             Form::Matrix | Form::Objects => {

@@ -8,7 +8,7 @@ use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::platform_limits::listed;
 use crate::mechanism::{Family, FullMode, PoseError, Solution};
-use crate::verdict::{Code, Status};
+use crate::verdict::{Code, Proof, Status};
 use num_complex::Complex;
 use std::fmt::Write;
 
@@ -51,7 +51,8 @@ pub fn verdict(kind: Kind, solution: &Solution) -> String {
                 n => format!(", {n} more at infinity"),
             };
             let near = near(solution);
-            format!("{found} of {found} roots ({} real{at_infinity}{near}), {}", verdict.real, quality(solution))
+            let roots = format!("{found} of {found} roots ({} real{at_infinity}{near})", verdict.real);
+            format!("complete ({}): {roots}, {}", proof(verdict.proof), quality(solution))
         }
         Status::Unreachable => {
             let what = match kind {
@@ -65,14 +66,15 @@ pub fn verdict(kind: Kind, solution: &Solution) -> String {
                 (0, _) => "0 roots".to_owned(),
                 _ => format!("{found} roots, {}", certified(solution)),
             };
-            format!("0 real of {found}: {what}, {}", measured(solution))
+            format!("unreachable ({}): 0 real of {found}: {what}, {}", proof(verdict.proof), measured(solution))
         }
         Status::SelfMotion => {
             let beside = match found {
                 0 => "no isolated root".to_owned(),
                 n => format!("{} beside it ({} real{})", counted(n, "isolated root"), verdict.real, near(solution)),
             };
-            format!("self-motion of dimension {}, {beside}, {}", verdict.self_motion, measured(solution))
+            let proof = proof(verdict.proof);
+            format!("self-motion of dimension {} ({proof}), {beside}, {}", verdict.self_motion, measured(solution))
         }
         Status::Incomplete => {
             format!(
@@ -81,6 +83,14 @@ pub fn verdict(kind: Kind, solution: &Solution) -> String {
             )
         }
         Status::Unsupported => format!("unsupported: {}", verdict.reason),
+    }
+}
+
+/// The proof of a verdict in words.
+fn proof(proof: Proof) -> &'static str {
+    match proof {
+        Proof::None => "not proved",
+        other => other.word(),
     }
 }
 

@@ -75,7 +75,7 @@ fn json(text: &str) -> Value {
 fn a_complete_answer_begins_with_its_verdict() {
     let run = run(&["solve", "general_16real"]);
     let first = run.out.lines().next().unwrap();
-    assert!(first.starts_with("16 of 16 roots (16 real), all certified, residual <= "), "{first}");
+    assert!(first.starts_with("complete (proved): 16 of 16 roots (16 real), all certified, residual <= "), "{first}");
     assert!(first.ends_with(" ms"), "{first}");
     assert_eq!((run.code, run.err.as_str()), (0, ""));
     assert_eq!(run.out.lines().filter(|line| line.ends_with("  yes")).count(), 16);
@@ -94,7 +94,11 @@ fn an_unreachable_pose_is_an_answer_of_its_own() {
     let far = head + &far.collect::<Vec<_>>().join("\n");
     let path = file("unreachable.toml", far);
     let text = run(&["solve", &path]);
-    assert!(text.out.starts_with("0 real of 16 roots, all certified: this pose cannot be reached, "), "{}", text.out);
+    assert!(
+        text.out.starts_with("unreachable (proved): 0 real of 16 roots, all certified: this pose cannot be reached, "),
+        "{}",
+        text.out
+    );
     assert_eq!(text.code, 3);
     let document = run(&["solve", &path, "--json"]);
     assert_eq!(document.code, 3);
@@ -323,7 +327,7 @@ fn one_case_can_be_picked_or_given() {
 fn a_platform_is_solved_with_quaternions_and_positions() {
     let all = run(&["solve", "dietmaier_40real"]);
     let first = all.out.lines().next().unwrap();
-    assert!(first.starts_with("40 of 40 roots (40 real), all certified, residual <= "), "{first}");
+    assert!(first.starts_with("complete (proved): 40 of 40 roots (40 real), all certified, residual <= "), "{first}");
     assert_eq!((all.code, all.out.lines().filter(|line| line.ends_with("  yes")).count()), (0, 40));
     assert!(all.out.contains("route: border basis"), "{}", all.out);
     let document = json(&run(&["solve", "platform_06real", "--json", "--complex"]).out);
@@ -350,25 +354,38 @@ fn a_platform_is_solved_with_quaternions_and_positions() {
     let lines = run(&["solve", "platform/hexapod", "--jsonl"]);
     assert_eq!((lines.code, lines.out.lines().map(json).count()), (0, 3));
     let real = run(&["solve", "dietmaier_40real", "--real", "-q"]);
-    assert!(real.code == 0 && real.out.starts_with("40 of 40 roots"), "{}", real.out);
+    assert!(real.code == 0 && real.out.starts_with("complete (proved): 40 of 40 roots"), "{}", real.out);
     let posture = run(&["solve", "platform/hexapod", "--pose", "2", "-q"]);
-    assert!(posture.code == 0 && posture.out.starts_with("28 of 28 roots (8 real)"), "{}", posture.out);
+    assert!(
+        posture.code == 0 && posture.out.starts_with("complete (proved): 28 of 28 roots (8 real)"),
+        "{}",
+        posture.out
+    );
 }
 
 #[test]
 fn what_becomes_of_a_platform_is_in_the_exit_code() {
     for (name, code, start) in [
-        ("platform_00real", 3, "0 real of 40 roots, all certified: no pose has legs of these lengths, "),
-        ("points_6_3", 0, "16 of 16 roots (6 real), all certified"),
-        ("bricard_octahedron", 2, "self-motion of dimension 1, "),
-        ("singular_pose", 0, "40 of 40 roots (2 real), all certified, "),
+        (
+            "platform_00real",
+            3,
+            "unreachable (proved): 0 real of 40 roots, all certified: no pose has legs of these lengths, ",
+        ),
+        ("points_6_3", 0, "complete (proved): 16 of 16 roots (6 real), all certified"),
+        ("bricard_octahedron", 2, "self-motion of dimension 1 ("),
+        ("singular_pose", 0, "complete (proved): 40 of 40 roots (2 real), all certified, "),
     ] {
         let run = run(&["solve", &format!("platform/{name}"), "-q"]);
         assert!(run.code == code && run.out.starts_with(start), "{name}: {} {}", run.code, run.out);
     }
     // Legs that are too short to reach are an answer.
     let short = run(&["solve", "dietmaier_40real", "--legs", "1, 1, 1, 1, 1, 0.001"]);
-    assert!(short.code == 3 && short.out.starts_with("0 real of 40 roots"), "{} {}", short.code, short.out);
+    assert!(
+        short.code == 3 && short.out.starts_with("unreachable (proved): 0 real of 40 roots"),
+        "{} {}",
+        short.code,
+        short.out
+    );
 }
 
 #[test]
@@ -531,7 +548,7 @@ fn standard_input_is_a_file_named_dash() {
     let text = library("arm/general_16real");
     let run = run_with_input(&["solve", "-"], text.as_bytes());
     assert_eq!(run.code, 0);
-    assert!(run.out.starts_with("16 of 16 roots"));
+    assert!(run.out.starts_with("complete (proved): 16 of 16 roots"));
     assert_eq!(run_with_input(&["solve", "-"], b"").code, 1);
 }
 

@@ -69,7 +69,7 @@ impl fmt::Display for Route {
             }
             Self::BorderBasis { directions } => write!(
                 f,
-                "border basis of dimension 40 with {} weak directions of the legs' matrix K as unknowns",
+                "border basis of dimension 40; unknowns are the weak directions of the legs' matrix K, {} in number",
                 directions - 1
             ),
             Self::Triangle { at_base } => write!(

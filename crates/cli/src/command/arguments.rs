@@ -79,7 +79,8 @@ pub struct CaseOptions {
     /// Platform: legs of these lengths: "1, 1.2, 900 mm, ..."
     #[arg(long, value_name = "L", conflicts_with = "pose", allow_hyphen_values = true)]
     pub legs: Option<String>,
-    /// This pose of the tool or plate: "x, y, z; w, x, y, z", position and quaternion, or "x, y, z; roll, pitch, yaw"
+    /// This pose of the tool or plate: "x, y, z; w, x, y, z", position and quaternion, or "x, y, z; roll, pitch, yaw"; without a
+    /// unit in those of the file (of a URDF metres and radians)
     #[arg(long, value_name = "POSE", conflicts_with_all = ["pose", "input", "joints", "legs"], allow_hyphen_values = true)]
     pub at: Option<String>,
 }
@@ -384,7 +385,8 @@ pub struct SweepOptions {
     mut_arg("scene", |arg| arg.hide(true)),
     mut_arg("derivatives", |arg| arg.hide(true)),
     mut_arg("quiet", |arg| arg.hide(true)),
-    mut_arg("color", |arg| arg.hide(true))
+    mut_arg("color", |arg| arg.hide(true)),
+    after_help = help::VIEW
 )]
 pub struct ViewOptions {
     #[command(flatten)]

@@ -26,6 +26,14 @@ Examples:
   looproot sweep linkage/watt_line --from 0 --to \"360 deg\" --certificate watt.cert   which looproot verify checks
   looproot sweep hexapod --joint leg1 --from \"5 cm\" --to \"8 cm\"   a platform: one leg changes its length";
 
+/// Examples of `view`.
+pub const VIEW: &str = "\
+Examples:
+  looproot view robot.urdf --at \"0.3, 0.1, 0.4; 1, 0, 0, 0\" -o robot.html          every way to reach a pose, in space
+  looproot view robot.urdf --at \"0.3, 0.1, 0.4; 1, 0, 0, 0\" --live -o live.html   with sliders, solved anew in the page
+  looproot view fourbar.toml --sweep --from 0 --to \"360 deg\" -o fourbar.html      every branch, moving
+  looproot view hexapod.toml --svg -o hexapod.svg                                a figure for a paper";
+
 /// Examples of `mobility`.
 pub const MOBILITY: &str = "\
 Examples:

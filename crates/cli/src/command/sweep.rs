@@ -10,6 +10,7 @@ use super::space_instant::link;
 use super::wanted::in_place;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use looproot::internal::catalogue::entry::{Design, Entry};
+use looproot::internal::catalogue::turn::turn;
 use looproot::internal::catalogue::{Any, Chains, Options, load_solvable};
 use looproot::internal::error::Error;
 use looproot::internal::kinematics::chain::{Chain, JointKind};
@@ -26,7 +27,7 @@ use looproot::internal::report::text::variables;
 use looproot::internal::scene::Stage;
 use looproot::internal::sweep::{Range, Sweep, SweepVerdict, sweep};
 use looproot::internal::verdict::Status;
-use looproot_algebra::number::{Angle, Number, Quantity, Reading};
+use looproot_algebra::number::{Number, Quantity, Reading};
 use std::io::Write;
 use std::sync::atomic::Ordering;
 
@@ -230,8 +231,10 @@ pub fn range(options: &SweepOptions, variable: Variable, reading: &Reading) -> R
 /// Reads an end of the range; a number without a unit has that of the file.
 fn end(name: &str, text: &str, variable: Variable, reading: &Reading) -> Result<f64, Error> {
     let value = match variable {
-        Variable::Rotation => Angle::parse(text, reading).map(|angle| angle.radians()),
-        Variable::Translation => Number::parse(text, Quantity::Length, reading).map(|length| length.to_f64()),
+        Variable::Rotation => turn(text, reading).map(|angle| angle.radians()),
+        Variable::Translation => {
+            Number::parse(text, Quantity::Length, reading).map(|length| length.to_f64()).map_err(Error::from)
+        }
     };
-    value.map_err(|fault| Error::from(fault).of_option(name))
+    value.map_err(|fault| fault.of_option(name))
 }

@@ -11,7 +11,7 @@ use looproot::internal::error::Error;
 use looproot::internal::report::framework;
 use looproot::internal::view::{drawable, figures, is_scores, live_page, page, parse, parts};
 use serde_json::Value;
-use std::io::Read;
+use std::io::{IsTerminal, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -22,6 +22,11 @@ const MOST_BYTES: u64 = 256 << 20;
 pub fn run(options: &ViewOptions) -> Result<Exit, Fault> {
     let begun = if options.live { view_live::begun(options) } else { None };
     let options = begun.as_ref().unwrap_or(options);
+    let has_place = options.open || options.parts || options.svg || options.solve.output.output.is_some();
+    if !has_place && std::io::stdout().is_terminal() {
+        let message = "found no place for the page, expected -o page.html or --open";
+        return Err(Error::Invalid(message.to_owned()).into());
+    }
     let (exit, mut document) = document(options)?;
     drawable(&mut document)?;
     let map = options.map.as_ref().map(|plane| map(options, plane)).transpose()?;
