@@ -4,6 +4,14 @@ use std::fs;
 use std::path::Path;
 
 #[test]
+fn the_example_of_the_page_is_the_one_that_is_compiled() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let [page, example] =
+        ["README.md", "examples/first.c"].map(|name| fs::read_to_string(root.join(name)).expect(name));
+    assert!(page.contains(&format!("```c\n{example}```")), "c/README.md shows another example than examples/first.c");
+}
+
+#[test]
 fn the_header_is_that_of_the_sources() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let config = cbindgen::Config::from_file(root.join("cbindgen.toml")).expect("a configuration");
