@@ -45,7 +45,17 @@ pub fn run(options: &ViewOptions) -> Result<Exit, Fault> {
     } else {
         open(options, &text, &document)?;
     }
+    if !options.parts {
+        remind(&document);
+    }
     Ok(exit)
+}
+
+/// Tells what was understood of the file, as `solve` does below its table; a page may be made of it by mistake.
+fn remind(document: &Value) {
+    for remark in document["remarks"].as_array().into_iter().flatten().filter_map(Value::as_str) {
+        eprintln!("note: {remark}");
+    }
 }
 
 /// Returns a saved document, or a fresh one.
