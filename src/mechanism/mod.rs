@@ -14,6 +14,7 @@ mod overconstrained_loop;
 mod platform;
 mod redundancy;
 mod single_loop;
+mod singular_posture;
 mod spherical_angles;
 mod spherical_chain;
 mod task_arm;

@@ -1,9 +1,11 @@
 //! Configurations that reach a pose within the tolerance but not exactly. A pose that is typed is rounded, and a singular pose is
 //! lost by rounding: a double solution becomes a complex pair, and a self-motion becomes a few isolated solutions.
 
+use super::singular_posture::{MOST_CORANK, Postures, Singular};
 use crate::assembly::wrapped;
-use crate::kinematics::chain::{Chain, Placement};
+use crate::kinematics::chain::Placement;
 use crate::kinematics::closed_loop::{ClosedLoop, Layout, Variable};
+use crate::kinematics::forward::Forward;
 use crate::kinematics::motion::Motion;
 use crate::kinematics::tolerance::{PoseError, Tolerance};
 use crate::solve::curve::CLOSES_WITHIN;
@@ -15,13 +17,15 @@ use num_complex::Complex;
 /// An arm at a pose, and what of it is looked at.
 pub(super) struct Neighbourhood<'a> {
     /// The arm.
-    pub chain: &'a Chain,
+    pub forward: &'a Forward,
     /// The order of its variables.
     pub layout: &'a Layout,
     /// The pose.
     pub pose: &'a Placement,
     /// The loop that both make, lengths over `scale`.
     pub closed: &'a ClosedLoop<f64>,
+    /// The loop at another pose, in the same unit.
+    pub closed_at: &'a dyn Fn(&Motion<f64>) -> ClosedLoop<f64>,
     /// The unit of lengths in the loop.
     pub scale: f64,
     /// The tolerance.
@@ -49,8 +53,19 @@ pub(super) struct Start {
 pub(super) struct Near {
     /// Configurations that appear to be isolated.
     pub modes: Vec<(Six<f64>, PoseError)>,
-    /// Self-motions, with the largest error along them.
-    pub families: Vec<(SelfMotion, f64)>,
+    /// Self-motions.
+    pub families: Vec<NearFamily>,
+}
+
+/// A self-motion near a pose.
+#[derive(Debug)]
+pub(super) struct NearFamily {
+    /// Its points.
+    pub motion: SelfMotion,
+    /// The largest error of the pose along it.
+    pub distance: f64,
+    /// The loop at the pose that it reaches exactly; `None` where it reaches the pose asked for up to what may be missed.
+    pub closed: Option<ClosedLoop<f64>>,
 }
 
 /// Ratio of the condition of a solution on a near self-motion to the tolerance: 0.02 of its way changes the pose by no more than
@@ -58,6 +73,13 @@ pub(super) struct Near {
 const CONDITION: f64 = 1e-3;
 /// Solutions nearer to each other than this are one as seen from a near one: a pair that rounding splits.
 const SAME: f64 = 1e-3;
+/// Two solutions are nearer than this many roots of the tolerance if rounding split one.
+const SPLIT: f64 = 2.0;
+/// Condition of complex solutions beside a near configuration, in parts of the root of the tolerance: rounding leads by that root away
+/// from where the arm is singular, and the arm by as much away from being so.
+const BESIDE: f64 = 0.03;
+/// Samples of a self-motion are apart by less in each variable.
+const STEP: f64 = 0.1;
 /// Imaginary parts of solutions that may be near a real configuration, at most.
 const IMAGINARY: f64 = 0.5;
 /// The search for near solutions starts from this number of solutions at most: no loop has more.
@@ -88,36 +110,48 @@ impl Neighbourhood<'_> {
         // A solution of order k splits by the k-th root of what it misses; orders above 4 are not looked for.
         let widest = (10.0 * within.powf(0.25)).min(IMAGINARY);
         let imaginary = |start: &Start| start.unknowns.iter().map(|z| z.im.abs()).fold(0.0, f64::max);
-        let split = complex.iter().filter(|start| imaginary(start) < widest);
-        for start in middles.iter().chain(bad).chain(split.copied()).take(MOST_STARTS) {
+        let is_split = |start: &Start| imaginary(start) < widest;
+        let is_beside = |start: &Start| is_split(start) || !(start.condition < BESIDE / within.sqrt());
+        // One of a pair of conjugates.
+        let is_first = |start: &Start| start.unknowns.iter().map(|z| z.im).find(|x| *x != 0.0).is_none_or(|x| x > 0.0);
+        let beside = complex.iter().filter(|start| is_first(start) && is_beside(start));
+        for start in middles.iter().chain(bad).chain(beside.copied()).take(MOST_STARTS) {
+            if self.visit(start, families, &real, &mut near) || !start.is_real && !is_split(start) {
+                continue;
+            }
             let Some(point) = nearest(self.closed, &start.unknowns.map(|z| z.re), within) else { continue };
-            let holds = |family: &SelfMotion| family.holds(self.closed, &point, within);
-            if families.iter().chain(near.families.iter().map(|(family, _)| family)).any(holds) {
+            if families.iter().any(|family| family.holds(self.closed, &point, within)) || self.is_known(&point, &near) {
                 continue;
             }
             let found = self_motions(self.closed, &point, within);
             for family in &found {
                 self.admit(family, families, within, &mut near);
             }
-            let is_on = |(family, _): &(SelfMotion, f64)| family.holds(self.closed, &point, within);
-            if !start.is_real && !near.families.iter().any(is_on) {
+            if !start.is_real && !self.is_known(&point, &near) {
                 self.admit_mode(&point, &real, &mut near);
             }
         }
-        for start in complex.iter().filter(is_bad).step_by(2).take(MOST_SEARCHES) {
-            self.search(&start.unknowns.map(|z| z.re), families, within, &mut near);
+        if near.families.is_empty() {
+            for start in complex.iter().filter(is_bad).step_by(2).take(MOST_SEARCHES) {
+                self.search(&start.unknowns.map(|z| z.re), families, within, &mut near);
+            }
         }
         if self.is_deficient && families.is_empty() && near.families.is_empty() {
             for trial in 1..=STARTS {
-                self.look(&spread(&self.closed.variables, trial), families, within, &mut near);
+                let start = approach(self.closed, &spread(&self.closed.variables, trial));
+                self.look(&start, families, within, &mut near);
             }
         } else if self.is_empty && families.is_empty() && near.families.is_empty() {
             for trial in 1..=STARTS {
-                let start = spread(&self.closed.variables, trial);
-                if self.look(&start, families, within, &mut near) {
+                let start = approach(self.closed, &spread(&self.closed.variables, trial));
+                let unknowns = start.map(Complex::from);
+                let start = Start { unknowns, is_real: false, condition: f64::INFINITY };
+                if self.visit(&start, families, &[], &mut near)
+                    || self.look(&start.unknowns.map(|z| z.re), families, within, &mut near)
+                {
                     continue;
                 }
-                if let Some(point) = nearest(self.closed, &approach(self.closed, &start), within) {
+                if let Some(point) = nearest(self.closed, &start.unknowns.map(|z| z.re), within) {
                     self.admit_mode(&point, &[], &mut near);
                 }
             }
@@ -132,10 +166,8 @@ impl Neighbourhood<'_> {
         let mut found = Vec::new();
         for (k, one) in bad.iter().enumerate() {
             for other in &bad[..k] {
-                let way: Six<f64> = std::array::from_fn(|j| {
-                    let off = other.unknowns[j].re - one.unknowns[j].re;
-                    if self.closed.variables[j] == Variable::Rotation { wrapped(off) } else { off }
-                });
+                let [from, to] = [one, other].map(|start| start.unknowns.map(|z| z.re));
+                let way: Six<f64> = std::array::from_fn(|j| self.difference(j, &to, &from));
                 if way.iter().all(|x| x.abs() < SAME) {
                     found.push(Start { unknowns: std::array::from_fn(|j| one.unknowns[j] + way[j] / 2.0), ..**one });
                 }
@@ -148,19 +180,90 @@ impl Neighbourhood<'_> {
     /// third rotation coincide these two turn against each other, and the joint stands still.
     fn rest_spherical(&self, real: &[&Start], near: &mut Near) {
         let Some(first) = self.layout.spherical_unknown() else { return };
-        let rests = |family: &SelfMotion| (0..6).all(|k| !family.moving[k] || k == first || k == first + 2);
-        let (resting, moving): (Vec<_>, Vec<_>) = near.families.drain(..).partition(|(family, _)| rests(family));
+        let rests = |family: &NearFamily| (0..6).all(|k| !family.motion.moving[k] || k == first || k == first + 2);
+        let (resting, moving): (Vec<_>, Vec<_>) = near.families.drain(..).partition(rests);
         near.families = moving;
-        for point in resting.iter().filter_map(|(family, _)| family.points.first()) {
+        for point in resting.iter().filter_map(|family| family.motion.points.first()) {
             self.admit_mode(point, real, near);
         }
     }
 
-    /// Takes in the near self-motions downhill of a start. Whether there are any, known or not.
+    /// Takes in what is near at singular postures beside a start: the self-motions of the arm through them, which reach the pose of the
+    /// posture exactly, or the posture alone, unless real solutions are beside it. Returns whether there is such a posture.
+    fn visit(&self, start: &Start, families: &[SelfMotion], real: &[&Start], near: &mut Near) -> bool {
+        let Ok(from) = <Six<f64>>::try_from(self.values(&start.unknowns.map(|z| z.re))) else { return false };
+        if self.is_deficient || self.layout.joint_variables().contains(&None) {
+            return false;
+        }
+        let Self { forward, pose, tolerance, scale, .. } = *self;
+        let postures = Postures { forward, wanted: &pose.float, tolerance, scale };
+        let mut is_found = false;
+        for set in postures.nearly_dependent(&from) {
+            if let Some(q) = postures.nearest(&from, Singular::Joints(set)) {
+                is_found |= self.admit_posture(&q, families, near);
+            }
+        }
+        let by_corank = || (1..=MOST_CORANK).rev().find_map(|c| postures.nearest(&from, Singular::Corank(c)));
+        if !is_found && let Some(q) = by_corank() {
+            is_found = true;
+            if !self.admit_posture(&q, families, near) && !start.is_real {
+                self.admit_mode(&self.unknowns(&q), real, near);
+            }
+        }
+        is_found
+    }
+
+    /// Takes in the self-motions through a singular posture. Whether there are any, known or not.
+    fn admit_posture(&self, q: &Six<f64>, families: &[SelfMotion], near: &mut Near) -> bool {
+        let point = self.unknowns(q);
+        let closed = (self.closed_at)(&self.forward.pose(q));
+        let found = self_motions(&closed, &point, CLOSES_WITHIN);
+        for motion in &found {
+            let middle = &motion.points[motion.points.len() / 2];
+            let is_new = !near.families.iter().map(|family| &family.motion).chain(families).any(|other| {
+                other.dimension == motion.dimension && other.moving == motion.moving && self.is_beside(other, middle)
+            });
+            if is_new && let Some(distance) = self.distance(motion) {
+                near.families.push(NearFamily { motion: motion.clone(), distance, closed: Some(closed.clone()) });
+            }
+        }
+        !found.is_empty()
+    }
+
+    /// Whether a configuration is near a self-motion, or would be if the joints moved that move along it.
+    fn is_beside(&self, family: &SelfMotion, point: &Six<f64>) -> bool {
+        let still = self.apart();
+        family.points.iter().any(|sample| {
+            (0..6).all(|k| {
+                let off = self.difference(k, sample, point).abs();
+                off < if family.moving[k] { STEP } else { still } || family.dimension > 1 && family.moving[k]
+            })
+        })
+    }
+
+    fn is_known(&self, point: &Six<f64>, near: &Near) -> bool {
+        near.families.iter().any(|family| self.is_beside(&family.motion, point))
+    }
+
+    /// Solutions farther apart are two.
+    fn apart(&self) -> f64 {
+        let within = self.tolerance.angle.max(self.tolerance.length / self.scale);
+        (SPLIT * within.sqrt()).max(SAME)
+    }
+
+    fn difference(&self, k: usize, one: &Six<f64>, other: &Six<f64>) -> f64 {
+        let off = one[k] - other[k];
+        if self.closed.variables[k] == Variable::Rotation { wrapped(off) } else { off }
+    }
+
+    fn unit(&self, variable: Variable) -> f64 {
+        if variable == Variable::Rotation { 1.0 } else { self.scale }
+    }
+
+    /// Takes in the near self-motions at a start. Whether there are any, known or not.
     fn look(&self, start: &Six<f64>, families: &[SelfMotion], within: f64, near: &mut Near) -> bool {
-        let Some(point) = nearest(self.closed, &approach(self.closed, start), within) else { return false };
-        let holds = |family: &SelfMotion| family.holds(self.closed, &point, within);
-        if families.iter().chain(near.families.iter().map(|(family, _)| family)).any(holds) {
+        let Some(point) = nearest(self.closed, start, within) else { return false };
+        if families.iter().any(|family| family.holds(self.closed, &point, within)) || self.is_known(&point, near) {
             return true;
         }
         let found = self_motions(self.closed, &point, within);
@@ -178,7 +281,7 @@ impl Neighbourhood<'_> {
             // At first as it is, then farther and farther away.
             let part = trial as f64 / TRIALS as f64;
             let start = std::array::from_fn(|k| beside[k] + part * elsewhere[k]);
-            if self.look(&start, families, within, near) {
+            if self.look(&approach(self.closed, &start), families, within, near) {
                 return;
             }
         }
@@ -187,55 +290,61 @@ impl Neighbourhood<'_> {
     /// Takes in a self-motion that is near all along and not known.
     fn admit(&self, family: &SelfMotion, exact: &[SelfMotion], within: f64, near: &mut Near) {
         let middle = &family.points[family.points.len() / 2];
-        let known = exact.iter().chain(near.families.iter().map(|(family, _)| family));
-        let mut same = known.filter(|other| other.dimension == family.dimension);
-        if same.any(|other| {
-            other.holds(self.closed, middle, within) || other.moving == family.moving && other.dimension > 1
-        }) {
+        let is_same = |other: &SelfMotion| {
+            other.dimension == family.dimension
+                && (other.holds(self.closed, middle, within) || other.moving == family.moving && other.dimension > 1)
+        };
+        let is_near = |other: &NearFamily| {
+            is_same(&other.motion) || other.motion.moving == family.moving && self.is_beside(&other.motion, middle)
+        };
+        if exact.iter().any(is_same) || near.families.iter().any(is_near) {
             return;
         }
+        if let Some(distance) = self.distance(family) {
+            near.families.push(NearFamily { motion: family.clone(), distance, closed: None });
+        }
+    }
+
+    /// The largest error of the pose along a self-motion; `None` where it is too large.
+    fn distance(&self, family: &SelfMotion) -> Option<f64> {
         let stride = family.points.len().div_ceil(LOOKED_AT);
-        let errors: Option<Vec<PoseError>> = family.points.iter().step_by(stride).map(|q| self.error(q)).collect();
-        let Some(errors) = errors.filter(|errors| errors.iter().all(|error| self.allows(error))) else { return };
-        let distance = errors.iter().map(PoseError::largest).fold(0.0, f64::max);
-        near.families.push((family.clone(), distance));
+        let errors: Vec<PoseError> = family.points.iter().step_by(stride).map(|q| self.error(q)).collect();
+        errors
+            .iter()
+            .all(|error| self.tolerance.allows(error))
+            .then(|| errors.iter().map(PoseError::largest).fold(0.0, f64::max))
     }
 
     /// Takes in a configuration that is near and no solution again.
     fn admit_mode(&self, point: &Six<f64>, real: &[&Start], near: &mut Near) {
-        let apart = |other: &Six<f64>| {
-            let difference = |k: usize| match self.closed.variables[k] {
-                Variable::Rotation => wrapped(other[k] - point[k]),
-                Variable::Translation => other[k] - point[k],
-            };
-            (0..6).map(|k| difference(k).abs()).fold(0.0, f64::max) > SAME
+        let is_apart = |other: &Six<f64>| {
+            (0..6).map(|k| self.difference(k, other, point).abs()).fold(0.0, f64::max) > self.apart()
         };
-        let is_new = real.iter().all(|start| apart(&start.unknowns.map(|z| z.re)))
-            && near.modes.iter().all(|(other, _)| apart(other));
-        if let Some(error) = self.error(point).filter(|error| is_new && self.allows(error)) {
+        let is_new = real.iter().all(|start| is_apart(&start.unknowns.map(|z| z.re)))
+            && near.modes.iter().all(|(other, _)| is_apart(other));
+        let error = self.error(point);
+        if is_new && self.tolerance.allows(&error) {
             near.modes.push((*point, error));
         }
     }
 
-    fn allows(&self, error: &PoseError) -> bool {
-        error.position <= self.tolerance.length && error.orientation <= self.tolerance.angle
+    /// The joint values of the arm.
+    fn values(&self, unknowns: &Six<f64>) -> Vec<f64> {
+        let mut q = self.layout.assemble(unknowns, 0.0);
+        for (value, variable) in q.iter_mut().zip(&self.layout.variables) {
+            *value *= self.unit(*variable);
+        }
+        q
+    }
+
+    /// The unknowns of joint values of an arm of six.
+    fn unknowns(&self, q: &Six<f64>) -> Six<f64> {
+        let own = self.layout.joint_variables();
+        std::array::from_fn(|k| own[k].map_or(0.0, |index| q[index] / self.unit(self.closed.variables[k])))
     }
 
     /// Returns the error of the pose at a configuration.
-    fn error(&self, unknowns: &Six<f64>) -> Option<PoseError> {
-        let q = self.layout.assemble(unknowns, 0.0);
-        let motions = q.iter().zip(&self.layout.variables).map(|(value, variable)| match variable {
-            Variable::Rotation => Motion::rotation_z(value.cos(), value.sin()),
-            Variable::Translation => Motion::translation_z(value * self.scale),
-        });
-        let reached: Motion<f64> = self.chain.forward(&motions.collect::<Vec<_>>())?;
-        let asked = &self.pose.float;
-        let position = (0..3).map(|k| (reached.translation[k] - asked.translation[k]).powi(2)).sum::<f64>().sqrt();
-        // The length of the skew part of the rotation between the two is the sine of its angle.
-        let between = |i: usize, j: usize| (0..3).map(|k| asked.rotation[k][i] * reached.rotation[k][j]).sum::<f64>();
-        let skew = [(2, 1), (0, 2), (1, 0)].map(|(i, j)| (between(i, j) - between(j, i)) / 2.0);
-        let sine = skew.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let cosine = ((0..3).map(|k| between(k, k)).sum::<f64>() - 1.0) / 2.0;
-        Some(PoseError { position, orientation: sine.atan2(cosine) })
+    fn error(&self, unknowns: &Six<f64>) -> PoseError {
+        PoseError::between(&self.forward.pose(&self.values(unknowns)), &self.pose.float)
     }
 }

@@ -31,6 +31,7 @@ use crate::kinematics::chain::{Chain, JointKind, Placement};
 use crate::kinematics::closed_loop::{
     ClosedLoop, Layout, Numbers, OpenLoop, OpenSsDyad, SsDyad, Variable, angle_motion, distance_motion,
 };
+use crate::kinematics::forward::Forward;
 use crate::kinematics::freedom::Freedom;
 use crate::kinematics::motion::{Motion, unit_near};
 use crate::kinematics::tolerance::Tolerance;
@@ -156,13 +157,16 @@ pub(super) struct SingleLoop {
     pub(super) limits: Vec<[f64; 2]>,
     is_rounded: bool,
     prepared: ByInput<Way>,
+    /// The chain in f64, made at its first use; `None` where its numbers are not known to so many digits.
+    pub(super) forward: OnceLock<Option<Forward>>,
 }
 
 impl SingleLoop {
     /// Prepares the chain of an entry for all its cases.
     pub(super) fn prepare(entry: &Entry, chain: &Chain) -> Result<Self> {
         let prepared = ByInput::prepare(entry, chain, |layout| way(chain, layout))?;
-        Ok(Self { chain: chain.clone(), limits: entry.limits.clone(), is_rounded: entry.rounded, prepared })
+        let (chain, limits, forward) = (chain.clone(), entry.limits.clone(), OnceLock::new());
+        Ok(Self { chain, limits, is_rounded: entry.rounded, prepared, forward })
     }
 
     /// Solves one case.

@@ -7,6 +7,8 @@ use super::single_loop::{SingleLoop, SixUnknowns, full_mode};
 use crate::assembly::{Assembly, Gap, Hits, Mode};
 use crate::kinematics::chain::Placement;
 use crate::kinematics::closed_loop::{ClosedLoop, Variable};
+use crate::kinematics::forward::Forward;
+use crate::kinematics::motion::Motion;
 use crate::kinematics::tolerance::Tolerance;
 use crate::solve::curve::CLOSES_WITHIN;
 use crate::solve::dense;
@@ -82,12 +84,17 @@ impl Vicinity<'_> {
         let inside: Vec<SelfMotion> =
             assembly.families.iter().map(|motion| scaled(motion, &closed, 1.0 / scale)).collect();
         let (exact, seen) = if is_moving { (inside, Vec::new()) } else { (Vec::new(), inside) };
-        let (chain, layout) = (&self.of.chain, &self.prepared.layout);
-        let is_deficient = self.prepared.solver.structural_rank() < 6;
+        let layout = &self.prepared.layout;
+        let forward = self.of.forward.get_or_init(|| Forward::of(&self.of.chain));
+        let Some(forward) = forward else { return Near::default() };
+        let solver = &self.prepared.solver;
+        let closed_at = |pose: &Motion<f64>| solver.closed(&solver.gap(&pose.inverse())).0;
+        let is_deficient = solver.structural_rank() < 6;
         // Where the closure polynomial of no pose within the tolerance has a real zero, there is nothing to start from either.
         let is_denied = matches!(verdict.code, Code::OutOfReach | Code::RealZerosMatched);
         let is_empty = status == Status::Unreachable && starts.is_empty() && !is_denied;
-        let here = Neighbourhood { chain, layout, pose, closed: &closed, scale, tolerance, is_deficient, is_empty };
+        let (closed, closed_at) = (&closed, &closed_at);
+        let here = Neighbourhood { forward, layout, pose, closed, closed_at, scale, tolerance, is_deficient, is_empty };
         here.run(&starts, &exact, &seen)
     }
 
@@ -95,8 +102,11 @@ impl Vicinity<'_> {
     pub fn list(&self, near: &Near, tolerance: Tolerance, modes: &mut Vec<FullMode>, families: &mut Vec<Family>) {
         let (closed, scale) = self.closed();
         let within = tolerance.angle.max(tolerance.length / scale).max(CLOSES_WITHIN);
-        let found = near.families.iter().map(|(motion, distance)| (motion, distance.max(f64::MIN_POSITIVE)));
-        families.extend(self.listed(&closed, scale, found, within));
+        for family in &near.families {
+            let found = [(&family.motion, family.distance.max(f64::MIN_POSITIVE))].into_iter();
+            let (closed, within) = family.closed.as_ref().map_or((&closed, within), |own| (own, CLOSES_WITHIN));
+            families.extend(self.listed(closed, scale, found, within));
+        }
         for (point, error) in &near.modes {
             let unknowns: Six<Complex<f64>> = in_unit(point, &closed, scale).map(Complex::from);
             let here = closure(&closed, &point.map(|x| x));

@@ -1,0 +1,230 @@
+//! Singular postures of an arm that come nearest to a pose.
+//!
+//! A pose is near to an arm without being reached only at singular postures: from a regular configuration within the tolerance Newton's
+//! method leads to one that reaches the pose. A posture has corank c where the block of c times c of the Jacobian that belongs to its
+//! smallest singular values is 0; some joints are dependent where the same holds of their columns. That block is linearised together with
+//! the pose, and the miss is least subject to it.
+
+use crate::kinematics::closed_loop::Variable;
+use crate::kinematics::forward::Forward;
+use crate::kinematics::motion::{Motion, Vector, cross};
+use crate::kinematics::tolerance::{PoseError, Tolerance};
+use crate::solve::curve::CLOSES_WITHIN;
+use crate::solve::newton::Six;
+use looproot_calculus::finite::finite;
+use nalgebra::{DMatrix, DVector};
+
+/// Coranks looked for: shoulder, elbow and wrist of an arm may be singular together, and no posture of one in use is more singular.
+pub(super) const MOST_CORANK: usize = 3;
+/// Equations: those of the pose, those of the block, and those that hold what the pose does not.
+const ROWS: usize = 6 + MOST_CORANK * MOST_CORANK + MOST_CORANK;
+/// Steps at most: they converge quadratically from nearby, and halve the distance where the block vanishes to second order.
+const STEPS: usize = 40;
+/// Steps after which those that converge are short, and the length of these.
+const SETTLED: (usize, f64) = (10, 0.1);
+/// A step this short is the last one: rounding.
+const CONVERGED: f64 = 1e-11;
+/// A step is no longer, and a posture no farther away to first order: the cosine of half a radian is linear to an eighth.
+const LONGEST: f64 = 0.5;
+/// The weight of the block, which is to be 0, over that of the pose, which is missed.
+const HOLD: f64 = 1e4;
+/// Joints take part in a dependence, of length 1, with at least this.
+const TAKES_PART: f64 = 0.03;
+/// Directions along which everything stays within this are those of a self-motion, not gone in.
+const RANK: f64 = 1e-6;
+/// The least sum of squares has no part larger than `sqrt(2)` times the least largest part; what misses by more, no weights help.
+const BY_WEIGHTS: f64 = 1.5;
+
+/// An arm of six joint variables and a pose.
+pub(super) struct Postures<'a> {
+    /// The arm.
+    pub forward: &'a Forward,
+    /// The pose.
+    pub wanted: &'a Motion<f64>,
+    /// What the pose may be missed by.
+    pub tolerance: Tolerance,
+    /// The unit of lengths.
+    pub scale: f64,
+}
+
+/// In which way a posture is singular.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Singular {
+    /// The Jacobian has this corank, or a larger one.
+    Corank(usize),
+    /// The joints of this set, by bits, are dependent by themselves: most self-motions are of such joints. Two ways to be singular may
+    /// meet in one of corank 1, where the determinant vanishes to second order and does not show the one from the other.
+    Joints(usize),
+}
+
+/// A twist: angular, then linear over the unit of lengths.
+type Screw = [Vector<f64>; 2];
+
+/// The smallest singular values of a Jacobian, and how they change.
+struct Block {
+    /// The Jacobian, angular rows first, as if these values were 0: what the posture moves along is not gone in to meet the pose.
+    jacobian: DMatrix<f64>,
+    /// The derivatives of its entries by the joint variables, row by row.
+    rows: DMatrix<f64>,
+    /// The entries, with the other sign.
+    right: DVector<f64>,
+}
+
+impl Postures<'_> {
+    /// The sets of joints that are nearly dependent by themselves: of two joints in line, and of those that the Jacobian shows.
+    pub fn nearly_dependent(&self, start: &Six<f64>) -> Vec<usize> {
+        let (_, screws) = self.screws(start);
+        let apart = |j: usize, k: usize, sign: f64| {
+            (0..6).map(|i| (screws[j][i / 3][i % 3] - sign * screws[k][i / 3][i % 3]).abs()).fold(0.0, f64::max)
+        };
+        let pairs = (0..6).flat_map(|k| (0..k).map(move |j| (j, k)));
+        let in_line = pairs.filter(|&(j, k)| apart(j, k, 1.0).min(apart(j, k, -1.0)) < LONGEST);
+        let mut sets: Vec<usize> = in_line.map(|(j, k)| (1 << j) | (1 << k)).collect();
+        if let Some(right) = jacobian(&screws).svd(false, true).v_t {
+            let taking_part = (0..6).filter(|&k| right[(5, k)].abs() > TAKES_PART).fold(0, |set, k| set | (1 << k));
+            if !sets.contains(&taking_part) {
+                sets.push(taking_part);
+            }
+        }
+        sets
+    }
+
+    /// The joint values of a posture near `start`, singular in this way, that reaches the pose within the tolerance and misses it least,
+    /// or nearly so; `None` where the steps do not lead to one.
+    pub fn nearest(&self, start: &Six<f64>, way: Singular) -> Option<Six<f64>> {
+        let [length, angle] = [self.tolerance.length / self.scale, self.tolerance.angle].map(|x| x.max(CLOSES_WITHIN));
+        let within = length.max(angle);
+        let mut weights = [within / angle, within / length];
+        let mut q = *start;
+        for count in 0..STEPS {
+            let (tool, screws) = self.screws(&q);
+            let mut block = Block::of(&screws, way)?;
+            if count == 0 && !(block.way() < LONGEST) {
+                return None;
+            }
+            let (error, turn) = (PoseError::between(&tool, self.wanted), turn(&tool, self.wanted));
+            for i in 0..3 {
+                let moved = (self.wanted.translation[i] - tool.translation[i]) / self.scale;
+                for (row, value, part) in [(i, turn[i], 0), (3 + i, moved, 1)] {
+                    block.right[row] = weights[part] * value;
+                    for k in 0..6 {
+                        block.rows[(row, k)] = weights[part] * block.jacobian[(row, k)];
+                    }
+                }
+            }
+            let step = block.step()?;
+            let size = step.amax();
+            if size < CONVERGED {
+                let [turned, moved] = [error.orientation / angle, error.position / self.scale / length];
+                if self.tolerance.allows(&error) {
+                    return Some(q);
+                }
+                if !(turned.max(moved) < BY_WEIGHTS) {
+                    return None;
+                }
+                // The larger part weighs more, until both are alike.
+                let balance = (turned / moved).clamp(0.5, 2.0);
+                weights = [weights[0] * balance, weights[1] / balance];
+            } else if count > SETTLED.0 && size > SETTLED.1 {
+                return None;
+            }
+            let part = (LONGEST / size).min(1.0);
+            for (k, value) in q.iter_mut().enumerate() {
+                *value += part * step[k] * self.unit(k);
+            }
+        }
+        None
+    }
+
+    fn unit(&self, k: usize) -> f64 {
+        if self.forward.variables()[k] == Variable::Rotation { 1.0 } else { self.scale }
+    }
+
+    /// The pose of the tool, and the twists of its origin per unit of every variable.
+    fn screws(&self, q: &Six<f64>) -> (Motion<f64>, [Screw; 6]) {
+        let (tool, twists) = self.forward.jacobian(q);
+        let screw = |k: usize| {
+            let unit = self.unit(k);
+            [twists[k].angular, twists[k].linear.map(|x| x * unit / self.scale)]
+        };
+        (tool, std::array::from_fn(screw))
+    }
+}
+
+impl Block {
+    /// The block of a Jacobian that is 0 where a posture is singular in this way; `None` where there is none.
+    fn of(screws: &[Screw; 6], way: Singular) -> Option<Self> {
+        let all = jacobian(screws);
+        let (set, lefts, rights) = match way {
+            Singular::Corank(corank) => (0b11_1111, 6 - corank..6, 6 - corank..6),
+            Singular::Joints(set) => {
+                let first = (set.count_ones() as usize).checked_sub(1)?;
+                (set, first..6, first..first + 1)
+            }
+        };
+        let part = DMatrix::from_fn(6, 6, |i, j| if set >> j & 1 == 1 { all[(i, j)] } else { 0.0 });
+        let svd = part.svd(true, true);
+        let values = &svd.singular_values;
+        let (left, right) = (svd.u.as_ref()?, svd.v_t.as_ref()?);
+        // They are in descending order.
+        if !(values[rights.start.checked_sub(1)?] > RANK) {
+            return None;
+        }
+        let mut block = Self { jacobian: all, rows: DMatrix::zeros(ROWS, 6), right: DVector::zeros(ROWS) };
+        for (number, column) in rights.clone().enumerate() {
+            for (row, at) in lefts.clone().zip(6 + number * lefts.len()..) {
+                for k in 0..6 {
+                    let turned = |j: usize| {
+                        let [angular, linear] = bent(screws, k, j);
+                        let entry = |i: usize| left[(i, row)] * angular[i] + left[(3 + i, row)] * linear[i];
+                        right[(column, j)] * (0..3).map(entry).sum::<f64>()
+                    };
+                    block.rows[(at, k)] = HOLD * (0..6).map(turned).sum::<f64>();
+                }
+                block.right[at] = if row == column { -HOLD * values[row] } else { 0.0 };
+            }
+            block.jacobian -= left.column(column) * right.row(column) * values[column];
+            // Of all postures along a self-motion, the nearest one.
+            for k in 0..6 {
+                block.rows[(ROWS - 1 - number, k)] = right[(column, k)];
+            }
+        }
+        Some(block)
+    }
+
+    /// How far, to first order, the posture is in which the block is 0.
+    fn way(&self) -> f64 {
+        self.step().map_or(f64::INFINITY, |step| step.amax())
+    }
+
+    /// The shortest step to where the equations are met best.
+    fn step(&self) -> Option<DVector<f64>> {
+        finite(self.rows.clone()).svd(true, true).solve(&finite(self.right.clone()), RANK).ok()
+    }
+}
+
+/// The Jacobian, angular rows first.
+fn jacobian(screws: &[Screw; 6]) -> DMatrix<f64> {
+    finite(DMatrix::from_fn(6, 6, |i, j| screws[j][i / 3][i % 3]))
+}
+
+/// The derivative of the twist j of the tool by the variable k: those before a joint carry its axis and the tool, those behind it the
+/// tool alone.
+fn bent(screws: &[Screw; 6], k: usize, j: usize) -> Screw {
+    let [angular, linear] = &screws[k];
+    if k < j {
+        [cross(angular, &screws[j][0]), cross(angular, &screws[j][1])]
+    } else {
+        [[0.0; 3], cross(&screws[j][0], linear)]
+    }
+}
+
+/// The rotation from one orientation to another, as a vector along its axis as long as its angle.
+fn turn(from: &Motion<f64>, to: &Motion<f64>) -> Vector<f64> {
+    let entry = |i: usize, j: usize| (0..3).map(|k| to.rotation[i][k] * from.rotation[j][k]).sum::<f64>();
+    let skew = [(2, 1), (0, 2), (1, 0)].map(|(i, j)| (entry(i, j) - entry(j, i)) / 2.0);
+    let sine = skew.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let cosine = ((0..3).map(|k| entry(k, k)).sum::<f64>() - 1.0) / 2.0;
+    let stretched = if sine > 0.0 { sine.atan2(cosine) / sine } else { 1.0 };
+    skew.map(|x| x * stretched)
+}
