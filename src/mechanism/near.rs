@@ -77,7 +77,9 @@ const SAME: f64 = 1e-3;
 const SPLIT: f64 = 2.0;
 /// Condition of complex solutions beside a near configuration, in parts of the root of the tolerance: rounding leads by that root away
 /// from where the arm is singular, and the arm by as much away from being so.
-const BESIDE: f64 = 0.03;
+const BESIDE: f64 = 0.3;
+/// The same of complex solutions that rounding alone keeps apart from a self-motion.
+const LOST: f64 = 0.1;
 /// Samples of a self-motion are apart by less in each variable.
 const STEP: f64 = 0.1;
 /// Imaginary parts of solutions that may be near a real configuration, at most.
@@ -98,7 +100,7 @@ impl Neighbourhood<'_> {
     /// Returns the near configurations that are not yet known. `solutions` are all exact ones, `families` the self-motions that
     /// reach the pose exactly.
     pub fn run(&self, solutions: &[Start], families: &[SelfMotion], seen: &[SelfMotion]) -> Near {
-        let within = self.tolerance.angle.max(self.tolerance.length / self.scale).max(CLOSES_WITHIN);
+        let within = self.within();
         let mut near = Near::default();
         for family in seen {
             self.admit(family, families, within, &mut near);
@@ -110,13 +112,17 @@ impl Neighbourhood<'_> {
         // A solution of order k splits by the k-th root of what it misses; orders above 4 are not looked for.
         let widest = (10.0 * within.powf(0.25)).min(IMAGINARY);
         let imaginary = |start: &Start| start.unknowns.iter().map(|z| z.im.abs()).fold(0.0, f64::max);
-        let is_split = |start: &Start| imaginary(start) < widest;
+        let is_split = |start: &Start| !start.is_real && imaginary(start) < widest;
         let is_beside = |start: &Start| is_split(start) || !(start.condition < BESIDE / within.sqrt());
         // One of a pair of conjugates.
         let is_first = |start: &Start| start.unknowns.iter().map(|z| z.im).find(|x| *x != 0.0).is_none_or(|x| x > 0.0);
-        let beside = complex.iter().filter(|start| is_first(start) && is_beside(start));
-        for start in middles.iter().chain(bad).chain(beside.copied()).take(MOST_STARTS) {
-            if self.visit(start, families, &real, &mut near) || !start.is_real && !is_split(start) {
+        let all = middles.iter().chain(bad).chain(real.iter().chain(&complex).copied().filter(|start| {
+            is_beside(start) && if start.is_real { start.condition < CONDITION / within } else { is_first(start) }
+        }));
+        for start in all.take(MOST_STARTS) {
+            let is_far = if start.is_real { start.condition < CONDITION / within } else { !is_split(start) };
+            let is_decided = self.visit(start, families, &real, &mut near) || self.postures().is_some();
+            if is_decided || is_far {
                 continue;
             }
             let Some(point) = nearest(self.closed, &start.unknowns.map(|z| z.re), within) else { continue };
@@ -131,8 +137,9 @@ impl Neighbourhood<'_> {
                 self.admit_mode(&point, &real, &mut near);
             }
         }
-        if near.families.is_empty() {
-            for start in complex.iter().filter(is_bad).step_by(2).take(MOST_SEARCHES) {
+        if near.families.is_empty() && near.modes.is_empty() {
+            let is_lost = |start: &&&Start| !(start.condition < LOST / within);
+            for start in complex.iter().filter(is_lost).step_by(2).take(MOST_SEARCHES) {
                 self.search(&start.unknowns.map(|z| z.re), families, within, &mut near);
             }
         }
@@ -156,6 +163,7 @@ impl Neighbourhood<'_> {
                 }
             }
         }
+        self.add_crossing(families, &mut near);
         self.rest_spherical(&real, &mut near);
         near
     }
@@ -188,29 +196,65 @@ impl Neighbourhood<'_> {
         }
     }
 
+    /// The search for singular postures; `None` for joints that are dependent always, and where a joint is a virtual one.
+    fn postures(&self) -> Option<Postures<'_>> {
+        let is_whole = !self.is_deficient && self.layout.variables.len() == 6;
+        let Self { forward, pose, tolerance, scale, .. } = *self;
+        is_whole.then_some(Postures { forward, wanted: &pose.float, tolerance, scale })
+    }
+
     /// Takes in what is near at singular postures beside a start: the self-motions of the arm through them, which reach the pose of the
     /// posture exactly, or the posture alone, unless real solutions are beside it. Returns whether there is such a posture.
     fn visit(&self, start: &Start, families: &[SelfMotion], real: &[&Start], near: &mut Near) -> bool {
-        let Ok(from) = <Six<f64>>::try_from(self.values(&start.unknowns.map(|z| z.re))) else { return false };
-        if self.is_deficient || self.layout.joint_variables().contains(&None) {
-            return false;
-        }
-        let Self { forward, pose, tolerance, scale, .. } = *self;
-        let postures = Postures { forward, wanted: &pose.float, tolerance, scale };
+        let Some(postures) = self.postures() else { return false };
+        let from = self.values(&start.unknowns.map(|z| z.re));
         let mut is_found = false;
         for set in postures.nearly_dependent(&from) {
-            if let Some(q) = postures.nearest(&from, Singular::Joints(set)) {
-                is_found |= self.admit_posture(&q, families, near);
-            }
+            is_found |= self.admit_dependent(&postures, set, &from, families, near);
+        }
+        // What a pair of real solutions would be for a pose beside is near them.
+        if start.is_real && start.condition < CONDITION / self.within() {
+            return is_found;
         }
         let by_corank = || (1..=MOST_CORANK).rev().find_map(|c| postures.nearest(&from, Singular::Corank(c)));
         if !is_found && let Some(q) = by_corank() {
             is_found = true;
-            if !self.admit_posture(&q, families, near) && !start.is_real {
+            let is_on = self.is_known(&self.unknowns(&q), near) || self.admit_posture(&q, families, near);
+            if !is_on && !start.is_real {
                 self.admit_mode(&self.unknowns(&q), real, near);
             }
         }
         is_found
+    }
+
+    /// Takes in the self-motions near self-motions: where a curve of four joints passes a posture with two joints in line, these may turn.
+    fn add_crossing(&self, families: &[SelfMotion], near: &mut Near) {
+        let Some(postures) = self.postures() else { return };
+        for place in 0..near.families.len() {
+            let curve: Vec<Six<f64>> = near.families[place].motion.points.iter().map(|q| self.values(q)).collect();
+            for (set, q) in postures.most_in_line(&curve) {
+                self.admit_dependent(&postures, set, &q, families, near);
+            }
+        }
+    }
+
+    /// Takes in the self-motions at the posture near a start where these joints are dependent. Whether there are any, known or not.
+    fn admit_dependent(
+        &self,
+        postures: &Postures<'_>,
+        set: usize,
+        from: &Six<f64>,
+        families: &[SelfMotion],
+        near: &mut Near,
+    ) -> bool {
+        let Some(q) = postures.nearest(from, Singular::Joints(set)) else { return false };
+        let (point, own) = (self.unknowns(&q), self.layout.joint_variables());
+        let is_of_these = |family: &SelfMotion| {
+            (0..6).all(|k| own[k].is_some_and(|index| family.moving[k] == (set >> index & 1 == 1)))
+        };
+        let mut known = near.families.iter().map(|family| &family.motion).chain(families);
+        known.any(|family| is_of_these(family) && self.is_beside(family, &point))
+            || self.admit_posture(&q, families, near)
     }
 
     /// Takes in the self-motions through a singular posture. Whether there are any, known or not.
@@ -247,8 +291,11 @@ impl Neighbourhood<'_> {
 
     /// Solutions farther apart are two.
     fn apart(&self) -> f64 {
-        let within = self.tolerance.angle.max(self.tolerance.length / self.scale);
-        (SPLIT * within.sqrt()).max(SAME)
+        (SPLIT * self.within().sqrt()).max(SAME)
+    }
+
+    fn within(&self) -> f64 {
+        self.tolerance.angle.max(self.tolerance.length / self.scale).max(CLOSES_WITHIN)
     }
 
     fn difference(&self, k: usize, one: &Six<f64>, other: &Six<f64>) -> f64 {
@@ -328,11 +375,13 @@ impl Neighbourhood<'_> {
         }
     }
 
-    /// The joint values of the arm.
-    fn values(&self, unknowns: &Six<f64>) -> Vec<f64> {
-        let mut q = self.layout.assemble(unknowns, 0.0);
-        for (value, variable) in q.iter_mut().zip(&self.layout.variables) {
-            *value *= self.unit(*variable);
+    /// The joint values of the arm; those of joints that it does not have are 0.
+    fn values(&self, unknowns: &Six<f64>) -> Six<f64> {
+        let mut q = [0.0; 6];
+        for (k, index) in self.layout.joint_variables().into_iter().enumerate() {
+            if let Some(value) = index.and_then(|index| q.get_mut(index)) {
+                *value = unknowns[k] * self.unit(self.closed.variables[k]);
+            }
         }
         q
     }

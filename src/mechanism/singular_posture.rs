@@ -22,18 +22,25 @@ const ROWS: usize = 6 + MOST_CORANK * MOST_CORANK + MOST_CORANK;
 const STEPS: usize = 40;
 /// Steps after which those that converge are short, and the length of these.
 const SETTLED: (usize, f64) = (10, 0.1);
-/// A step this short is the last one: rounding.
-const CONVERGED: f64 = 1e-11;
+/// A step this short, in parts of the tolerance, is the last one; rounding at double singular positions may be a tenth of a nanometre.
+const CONVERGED: f64 = 0.1;
+/// Steps to the singular posture alone, from as near as the square of the weight below leaves it.
+const LAST: usize = 2;
 /// A step is no longer, and a posture no farther away to first order: the cosine of half a radian is linear to an eighth.
 const LONGEST: f64 = 0.5;
 /// The weight of the block, which is to be 0, over that of the pose, which is missed.
 const HOLD: f64 = 1e4;
-/// Joints take part in a dependence, of length 1, with at least this.
-const TAKES_PART: f64 = 0.03;
+/// Four joints whose twists have no smaller singular value are not taken for dependent ones: rounding to three digits leads a tenth away.
+const DEPENDENT: f64 = 0.1;
 /// Directions along which everything stays within this are those of a self-motion, not gone in.
 const RANK: f64 = 1e-6;
 /// The least sum of squares has no part larger than `sqrt(2)` times the least largest part; what misses by more, no weights help.
 const BY_WEIGHTS: f64 = 1.5;
+
+/// A tolerance leads this many fourth roots of it away from a singular posture, where it is one of order 4, or less.
+const AWAY: f64 = 3.0;
+/// A step bends a path by its square at most, in radians and units of lengths: what is missed by more to first order, is missed.
+const BENDS: f64 = 2.0;
 
 /// An arm of six joint variables and a pose.
 pub(super) struct Postures<'a> {
@@ -71,35 +78,44 @@ struct Block {
 }
 
 impl Postures<'_> {
-    /// The sets of joints that are nearly dependent by themselves: of two joints in line, and of those that the Jacobian shows.
-    pub fn nearly_dependent(&self, start: &Six<f64>) -> Vec<usize> {
-        let (_, screws) = self.screws(start);
-        let apart = |j: usize, k: usize, sign: f64| {
-            (0..6).map(|i| (screws[j][i / 3][i % 3] - sign * screws[k][i / 3][i % 3]).abs()).fold(0.0, f64::max)
+    /// The sets of joints that are nearly dependent by themselves, as those of self-motions are: two in line, or four of which no two are.
+    pub fn nearly_dependent(&self, at: &Six<f64>) -> Vec<usize> {
+        let (_, screws) = self.screws(at);
+        let mut sets: Vec<usize> = pairs().filter(|&set| in_line(&screws, set) < self.away()).collect();
+        let all = jacobian(&screws);
+        let fours =
+            (0..1_usize << 6).filter(|set| set.count_ones() == 4 && sets.iter().all(|pair| set & pair != *pair));
+        let is_near = |set: &usize| {
+            let part = DMatrix::from_fn(6, 6, |i, j| if set >> j & 1 == 1 { all[(i, j)] } else { 0.0 });
+            part.svd(false, false).singular_values[3] < DEPENDENT.min(self.away())
         };
-        let pairs = (0..6).flat_map(|k| (0..k).map(move |j| (j, k)));
-        let in_line = pairs.filter(|&(j, k)| apart(j, k, 1.0).min(apart(j, k, -1.0)) < LONGEST);
-        let mut sets: Vec<usize> = in_line.map(|(j, k)| (1 << j) | (1 << k)).collect();
-        if let Some(right) = jacobian(&screws).svd(false, true).v_t {
-            let taking_part = (0..6).filter(|&k| right[(5, k)].abs() > TAKES_PART).fold(0, |set, k| set | (1 << k));
-            if !sets.contains(&taking_part) {
-                sets.push(taking_part);
-            }
-        }
+        let fours: Vec<usize> = fours.filter(is_near).collect();
+        sets.extend(fours);
         sets
+    }
+
+    /// The postures, of a list, at which two joints are most nearly in line, and these.
+    pub fn most_in_line(&self, postures: &[Six<f64>]) -> Vec<(usize, Six<f64>)> {
+        let screws: Vec<[Screw; 6]> = postures.iter().map(|q| self.screws(q).1).collect();
+        let best = |set: usize| {
+            let off: Vec<f64> = screws.iter().map(|own| in_line(own, set)).collect();
+            let least = (0..off.len()).min_by(|a, b| off[*a].total_cmp(&off[*b]))?;
+            (off[least] < LONGEST).then_some((set, postures[least]))
+        };
+        pairs().filter_map(best).collect()
     }
 
     /// The joint values of a posture near `start`, singular in this way, that reaches the pose within the tolerance and misses it least,
     /// or nearly so; `None` where the steps do not lead to one.
     pub fn nearest(&self, start: &Six<f64>, way: Singular) -> Option<Six<f64>> {
-        let [length, angle] = [self.tolerance.length / self.scale, self.tolerance.angle].map(|x| x.max(CLOSES_WITHIN));
+        let [length, angle] = self.within();
         let within = length.max(angle);
         let mut weights = [within / angle, within / length];
         let mut q = *start;
         for count in 0..STEPS {
             let (tool, screws) = self.screws(&q);
             let mut block = Block::of(&screws, way)?;
-            if count == 0 && !(block.way() < LONGEST) {
+            if count == 0 && !(block.way() < self.away()) {
                 return None;
             }
             let (error, turn) = (PoseError::between(&tool, self.wanted), turn(&tool, self.wanted));
@@ -114,10 +130,16 @@ impl Postures<'_> {
             }
             let step = block.step()?;
             let size = step.amax();
-            if size < CONVERGED {
+            // The step itself meets the pose as well as it can.
+            let left =
+                (0..6).map(|row| (block.right[row] - (block.rows.row(row) * &step)[0]).abs()).fold(0.0, f64::max);
+            if left > 2.0 * within * BY_WEIGHTS + BENDS * weights[0].max(weights[1]) * size * size {
+                return None;
+            }
+            if size < CONVERGED * within {
                 let [turned, moved] = [error.orientation / angle, error.position / self.scale / length];
-                if self.tolerance.allows(&error) {
-                    return Some(q);
+                if let Some(settled) = self.settled(q, way) {
+                    return Some(settled);
                 }
                 if !(turned.max(moved) < BY_WEIGHTS) {
                     return None;
@@ -128,12 +150,37 @@ impl Postures<'_> {
             } else if count > SETTLED.0 && size > SETTLED.1 {
                 return None;
             }
-            let part = (LONGEST / size).min(1.0);
-            for (k, value) in q.iter_mut().enumerate() {
-                *value += part * step[k] * self.unit(k);
-            }
+            self.go(&mut q, &step, (LONGEST / size).min(1.0));
         }
         None
+    }
+
+    /// The posture that is singular to rounding, if it is near the pose: what misses a pose pulls at it, though not as strongly as the
+    /// block holds it.
+    fn settled(&self, mut q: Six<f64>, way: Singular) -> Option<Six<f64>> {
+        for _ in 0..LAST {
+            let step = Block::of(&self.screws(&q).1, way)?.step()?;
+            self.go(&mut q, &step, 1.0);
+        }
+        let error = PoseError::between(&self.forward.pose(&q), self.wanted);
+        self.tolerance.allows(&error).then_some(q)
+    }
+
+    fn go(&self, q: &mut Six<f64>, step: &DVector<f64>, part: f64) {
+        for (k, value) in q.iter_mut().enumerate() {
+            *value += part * step[k] * self.unit(k);
+        }
+    }
+
+    /// The tolerance of lengths, in the unit of them, and of angles.
+    fn within(&self) -> [f64; 2] {
+        [self.tolerance.length / self.scale, self.tolerance.angle].map(|x| x.max(CLOSES_WITHIN))
+    }
+
+    /// How far from a singular posture what is near to it may be.
+    fn away(&self) -> f64 {
+        let [length, angle] = self.within();
+        (AWAY * length.max(angle).sqrt().sqrt()).min(LONGEST)
     }
 
     fn unit(&self, k: usize) -> f64 {
@@ -201,6 +248,20 @@ impl Block {
     fn step(&self) -> Option<DVector<f64>> {
         finite(self.rows.clone()).svd(true, true).solve(&finite(self.right.clone()), RANK).ok()
     }
+}
+
+/// The sets of two of six joints.
+fn pairs() -> impl Iterator<Item = usize> {
+    (0..1_usize << 6).filter(|set| set.count_ones() == 2)
+}
+
+/// How far two joints are from being in line.
+fn in_line(screws: &[Screw; 6], pair: usize) -> f64 {
+    let (j, k) = (pair.trailing_zeros() as usize, pair.ilog2() as usize);
+    let off = |sign: f64| {
+        (0..6).map(|i| (screws[j][i / 3][i % 3] - sign * screws[k][i / 3][i % 3]).abs()).fold(0.0, f64::max)
+    };
+    off(1.0).min(off(-1.0))
 }
 
 /// The Jacobian, angular rows first.
