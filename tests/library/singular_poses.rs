@@ -5,9 +5,10 @@ use looproot::Arm;
 use looproot::internal::assembly::{Assembly, Roots, Workspace, wrapped};
 use looproot::internal::catalogue::entry::{Case, InputValue};
 use looproot::internal::catalogue::{Options, builtin};
-use looproot::internal::mechanism::{Mechanism, Solution};
+use looproot::internal::kinematics::chain::Placement;
+use looproot::internal::mechanism::{Mechanism, Solution, Tolerance};
 use looproot::internal::verdict::{Proof, Status};
-use looproot_algebra::number::{Angle, Reading};
+use looproot_algebra::number::{Angle, Number, Reading};
 use std::f64::consts::FRAC_PI_2;
 
 /// Solves a robot at the pose that joint values reach.
@@ -68,6 +69,51 @@ fn self_motions_of_robots_are_proved_by_the_axes_that_coincide() {
             assert_eq!(found, (Status::SelfMotion, Proof::Proved, 1), "{name} {values:?}: {}", verdict.reason);
         }
     }
+}
+
+/// Solves a robot at the pose that joint values reach, typed with six digits, within as many units of the last one.
+fn solved_as_typed(name: &str, planted: &[f64], units: f64) -> Solution {
+    let rows = Arm::robot(name).unwrap().fk(planted).unwrap();
+    let typed: [[Number; 4]; 4] = std::array::from_fn(|i| {
+        std::array::from_fn(|j| match rows.get(i) {
+            Some(row) => Number::from_f64((row[j] * 1e6).round() / 1e6),
+            None => Number::from_f64(f64::from(u8::from(i == j))),
+        })
+    });
+    let case = Case::at(Placement::from_matrix(&typed).unwrap().0, 1);
+    let entry = builtin(name, &Options::default()).unwrap();
+    let tolerance = Tolerance { length: units * 1e-6, angle: units * 1e-6 };
+    let mechanism = Mechanism::prepare(&entry).unwrap().with_tolerance(Some(tolerance));
+    mechanism.solve(&case, Roots::Real, &mut Workspace::default(), &mut Assembly::default()).unwrap()
+}
+
+#[test]
+fn self_motions_that_six_digits_dissolve_are_near() {
+    let (wrist, parallel): (&[usize], &[usize]) = (&[3, 5], &[1, 2, 3, 5]);
+    // Where the elbow is stretched, too, most of these poses are out of reach by a part of the last digit.
+    let elbows = [[302.0_f64, 70.0], [120.0, 38.0]].map(|[forearm, offset]| -forearm.atan2(offset));
+    let stretched = [("ur5e", 0.0, parallel), ("irb120", elbows[0], wrist), ("meca500", elbows[1], wrist)];
+    for (name, elbow, moving) in stretched {
+        for (joint, third) in [(0.3, 0.9), (0.5, elbow), (-1.1, elbow), (0.9, elbow), (-0.2, elbow)] {
+            let planted = [joint, 0.4 - joint, third, 0.3 + joint, 0.0, -0.7];
+            let answer = solved_as_typed(name, &planted, 10.0);
+            let holds = is_on_family(&answer, &planted, moving);
+            assert!(answer.verdict.status == Status::Complete && holds, "{name} {planted:?}: {:?}", answer.verdict);
+            assert!(answer.near() > 0 && answer.families.iter().all(|family| family.distance > 0.0), "{planted:?}");
+        }
+    }
+}
+
+#[test]
+fn poses_beyond_a_stretched_arm_by_more_than_the_tolerance_are_unreachable() {
+    let planted = [0.3, 0.4, 0.0, 0.9, 0.8, -0.7];
+    // Rounding may leave the pose within reach; most of these are beyond it, and all near it.
+    let answers: Vec<Solution> = (0..8)
+        .map(|k| solved_as_typed("ur5e", &[planted[0] + 0.1 * f64::from(k), 0.4, 0.0, 0.9, 0.8, -0.7], 1e-3))
+        .collect();
+    let is_denied = |answer: &&Solution| answer.verdict.status == Status::Unreachable && answer.near() == 0;
+    assert!((1..8).contains(&answers.iter().filter(is_denied).count()));
+    assert!(answers.iter().all(|answer| answer.verdict.proof == Proof::Proved));
 }
 
 #[test]
