@@ -78,7 +78,7 @@ const SPLIT: f64 = 2.0;
 /// Condition of complex solutions beside a near configuration, in parts of the root of the tolerance: rounding leads by that root away
 /// from where the arm is singular, and the arm by as much away from being so.
 const BESIDE: f64 = 0.3;
-/// The same of complex solutions that rounding alone keeps apart from a self-motion.
+/// The same of solutions that rounding alone keeps apart from a self-motion.
 const LOST: f64 = 0.1;
 /// Samples of a self-motion are apart by less in each variable.
 const STEP: f64 = 0.1;
@@ -121,7 +121,9 @@ impl Neighbourhood<'_> {
         }));
         for start in all.take(MOST_STARTS) {
             let is_far = if start.is_real { start.condition < CONDITION / within } else { !is_split(start) };
-            let is_decided = self.visit(start, families, &real, &mut near) || self.postures().is_some();
+            let is_found = self.visit(start, families, &real, &mut near);
+            // Where there is no solution, what Newton's method comes near to from afar is asked, too.
+            let is_decided = is_found || self.postures().is_some() && !real.is_empty();
             if is_decided || is_far {
                 continue;
             }
@@ -213,7 +215,7 @@ impl Neighbourhood<'_> {
             is_found |= self.admit_dependent(&postures, set, &from, families, near);
         }
         // What a pair of real solutions would be for a pose beside is near them.
-        if start.is_real && start.condition < CONDITION / self.within() {
+        if start.is_real && start.condition < LOST / self.within() {
             return is_found;
         }
         let by_corank = || (1..=MOST_CORANK).rev().find_map(|c| postures.nearest(&from, Singular::Corank(c)));

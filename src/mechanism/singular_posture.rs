@@ -38,7 +38,7 @@ const RANK: f64 = 1e-6;
 const BY_WEIGHTS: f64 = 1.5;
 
 /// A tolerance leads this many fourth roots of it away from a singular posture, where it is one of order 4, or less.
-const AWAY: f64 = 3.0;
+const AWAY: f64 = 10.0;
 /// A step bends a path by its square at most, in radians and units of lengths: what is missed by more to first order, is missed.
 const BENDS: f64 = 2.0;
 
@@ -115,7 +115,9 @@ impl Postures<'_> {
         for count in 0..STEPS {
             let (tool, screws) = self.screws(&q);
             let mut block = Block::of(&screws, way)?;
-            if count == 0 && !(block.way() < self.away()) {
+            // Which joints are dependent is known before, where that was near enough.
+            let farthest = if matches!(way, Singular::Joints(_)) { LONGEST } else { self.away() };
+            if count == 0 && !(block.way() < farthest) {
                 return None;
             }
             let (error, turn) = (PoseError::between(&tool, self.wanted), turn(&tool, self.wanted));
