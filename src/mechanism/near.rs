@@ -121,6 +121,16 @@ impl Neighbourhood<'_> {
         }));
         for start in all.take(MOST_STARTS) {
             let is_far = if start.is_real { start.condition < CONDITION / within } else { !is_split(start) };
+            // A pose that is singular to rounding has curves that cross each other, which are traced from the pose itself.
+            if start.is_real
+                && !(start.condition < LOST / within)
+                && let Some(point) = nearest(self.closed, &start.unknowns.map(|z| z.re), within)
+                && !self.is_known(&point, &near)
+            {
+                for family in &self_motions(self.closed, &point, within) {
+                    self.admit(family, families, within, &mut near);
+                }
+            }
             let is_found = self.visit(start, families, &real, &mut near);
             // Where there is no solution, what Newton's method comes near to from afar is asked, too.
             let is_decided = is_found || self.postures().is_some() && !real.is_empty();
