@@ -6,7 +6,7 @@
  *
  * An arm, a loop or a platform may be used by several threads at once, a workspace by one at a time.
  *
- * Written by cbindgen from c/src: LOOPROOT_BLESS=1 cargo test -p looproot-c. */
+ * Written by cbindgen from c/src: LOOPROOT_BLESS=1 cargo test -p looproot-c-header. */
 
 
 #ifndef LOOPROOT_H

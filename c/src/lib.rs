@@ -5,6 +5,3 @@
 mod answer;
 pub mod border;
 mod fault;
-
-#[cfg(test)]
-mod tests;
