@@ -571,7 +571,9 @@ fn output_goes_to_a_file_but_never_to_the_input() {
 fn colours_are_asked_for() {
     let bare = run(&["solve", "general_16real"]);
     assert!(!bare.out.contains('\x1b'));
-    assert!(run(&["solve", "general_16real", "--color", "always"]).out.starts_with("\x1b[32mcomplete (proved): 16 of 16"));
+    assert!(
+        run(&["solve", "general_16real", "--color", "always"]).out.starts_with("\x1b[32mcomplete (proved): 16 of 16")
+    );
     let quiet = run(&["solve", "general_16real", "--quiet"]);
     assert_eq!(quiet.out.lines().count(), 1);
 }
