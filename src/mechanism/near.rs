@@ -78,7 +78,7 @@ const SPLIT: f64 = 2.0;
 /// Condition of complex solutions beside a near configuration, in parts of the root of the tolerance: rounding leads by that root away
 /// from where the arm is singular, and the arm by as much away from being so.
 const BESIDE: f64 = 0.3;
-/// The same of solutions that rounding alone keeps apart from a self-motion.
+/// Rounding alone keeps solutions of this condition, in parts of the tolerance, apart from a self-motion.
 const LOST: f64 = 0.1;
 /// Samples of a self-motion are apart by less in each variable.
 const STEP: f64 = 0.1;

@@ -5,6 +5,7 @@ mod certificates;
 mod descriptions;
 mod platforms;
 mod score;
+mod tables;
 
 use serde_json::Value;
 use std::fs;
@@ -892,14 +893,4 @@ fn angles_within_the_limits_are_listed_within_them() {
     }
     let text = run(&["solve", &limited]);
     assert!(text.out.contains("within them: 1 of 2 real solutions"), "{}", text.out);
-}
-
-#[test]
-fn a_table_of_a_linkage_has_a_column_for_multiplicities_where_one_is_not_simple() {
-    let header = |out: &str| out.lines().find(|line| line.trim_start().starts_with("mode ")).unwrap().to_owned();
-    let four = run(&["solve", "linkage/fourfold_assembly"]).out;
-    assert!(header(&four).contains("multiplicity"), "{four}");
-    assert!(four.lines().any(|line| line.starts_with(" 1 ") && line.trim_end().ends_with(" 4")), "{four}");
-    let simple = run(&["solve", "linkage/eight_bar_16"]).out;
-    assert!(!header(&simple).contains("multiplicity"), "{simple}");
 }
