@@ -803,8 +803,7 @@ function show(parts) {
   Object.assign(state, { track: -1, frame: 0, moving: true });
   const nearest = tracks.reduce((best, track, k) => (
     track.frames.length && apart(track.frames[0], before) < apart(tracks[best]?.frames[0], before) ? k : best), -1);
-  const any = nearest < 0 ? tracks.findIndex((track) => track.frames.length) : nearest;
-  if (any >= 0) choose(any); else refresh();
+  if (tracks.length) choose(nearest < 0 ? data.first || 0 : nearest); else refresh();
   state.moving = false;
 }
 
@@ -972,8 +971,6 @@ state.overlay = tracks.filter((track) => track.case === begin && track.frames.le
 for (const button of all('button[data-key="overlay"]')) button.setAttribute('aria-pressed', String(state.overlay));
 wire();
 open3d();
-const own = tracks.findIndex((track) => track.frames.length && track.case === begin);
-const first = own < 0 ? tracks.findIndex((track) => track.frames.length) : own;
-choose(Math.max(first, 0));
+choose(data.first || 0);
 document.documentElement.dataset.ready = 'true';
 if (live) startLive();

@@ -8,7 +8,7 @@ use super::panels::panels;
 use super::scores;
 use super::stick;
 use super::table::{case_name, case_noun, table};
-use super::tracks::{Kind, Track, is_path, is_sweep, list, stride, tracks};
+use super::tracks::{Kind, Track, begun, first_case, is_path, is_sweep, list, stride, tracks};
 use super::words::{Headline, followed, moving, solved, swept};
 use crate::report::number::counted;
 use crate::report::picture::escaped;
@@ -117,8 +117,10 @@ fn whole(document: &Value, figure: Option<&str>, live: Option<(&Value, &Live)>) 
 fn data(document: &Value, tracks: &[Track<'_>]) -> Value {
     let scene = if document["scene"].is_object() { document["scene"].clone() } else { Value::Null };
     let stride = stride(tracks, POSES);
+    let first = begun(document, tracks);
     let tracks: Vec<Value> = tracks.iter().map(|track| track.json(document, stride)).collect();
-    object([("scene", scene), ("tracks", Value::Array(tracks)), ("case", first_case(document).into())])
+    let case = first_case(document);
+    object([("scene", scene), ("tracks", Value::Array(tracks)), ("case", case.into()), ("first", first.into())])
 }
 
 /// The colour of the verdict that is shown first.
@@ -141,11 +143,6 @@ fn headlines(document: &Value) -> Vec<Headline> {
         headlines.push(followed(document, &headlines));
     }
     headlines
-}
-
-/// The case that is shown first: the path as a whole, where there is one.
-fn first_case(document: &Value) -> usize {
-    if is_path(document) { list(document, "results").len() } else { 0 }
 }
 
 fn header(text: &mut String, document: &Value, headlines: &[Headline]) {

@@ -1,6 +1,6 @@
 //! Stick figures: a mechanism as a flat drawing, for papers and for pages without WebGL.
 
-use super::tracks::{Kind, Track, list, tracks};
+use super::tracks::{Kind, Track, begun, list, tracks};
 use crate::algebra::sort;
 use crate::kinematics::joint::{JointKind, Variable};
 use crate::report::picture::escaped;
@@ -303,7 +303,8 @@ fn drawn<'a>(track: &Track<'a>) -> Option<&'a Value> {
 
 /// The drawing of the first track, without a frame around it.
 pub(super) fn first(document: &Value, tracks: &[Track<'_>], size: [f64; 2]) -> String {
-    let found = tracks.iter().find_map(|track| Some((poses(drawn(track)?)?, frames(&document["scene"], track))));
+    let posed = |track: &Track<'_>| Some((poses(drawn(track)?)?, frames(&document["scene"], track)));
+    let found = tracks.get(begun(document, tracks)).and_then(posed).or_else(|| tracks.iter().find_map(posed));
     let mut text = String::new();
     if let Some((poses, frames)) = found {
         let drawing = Drawing::of(&document["scene"], &poses, &frames);

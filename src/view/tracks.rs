@@ -91,6 +91,21 @@ pub(super) fn tracks(document: &Value) -> Vec<Track<'_>> {
     tracks
 }
 
+/// Returns the index of the track that a page shows first: of the case that it begins with, a configuration within the limits of the
+/// joints where there is one, else the first that is drawn.
+pub(super) fn begun(document: &Value, tracks: &[Track<'_>]) -> usize {
+    let drawn = |track: &Track<'_>| track.frames.iter().any(|frame| frame["poses"].is_array());
+    let own = |track: &Track<'_>| drawn(track) && track.case == first_case(document);
+    let within = |track: &Track<'_>| own(track) && track.source["within_limits"] == true;
+    let first = |is_right: &dyn Fn(&Track<'_>) -> bool| tracks.iter().position(is_right);
+    first(&within).or_else(|| first(&own)).or_else(|| first(&drawn)).unwrap_or(0)
+}
+
+/// Returns the case that is shown first: the path as a whole, where there is one.
+pub(super) fn first_case(document: &Value) -> usize {
+    if is_path(document) { list(document, "results").len() } else { 0 }
+}
+
 /// The branches of a path. Their case is the one behind the last pose: the path as a whole.
 fn path(document: &Value) -> Vec<Track<'_>> {
     let results = list(document, "results");
