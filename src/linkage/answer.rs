@@ -278,7 +278,7 @@ fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily]
         let list = if real == 0 {
             "no assembly is real".to_owned()
         } else {
-            format!("{real} real assemblies of groups of {counts}")
+            format!("all {real} real ones of groups of {counts}")
         };
         let why = if has_boxes { "every box of angles is proved to hold none but these" } else { &because };
         let reason = format!("{list}: {why}; complex ones were not looked for");
@@ -291,7 +291,7 @@ fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily]
         let reason = format!("no assembly is real: all {complex} of groups of {counts} are complex{far}");
         (Status::Unreachable, rounded, code, reason)
     } else {
-        let reason = format!("{complex} assemblies, with multiplicity, of groups of {counts}: {because}");
+        let reason = format!("the groups have {counts}, with multiplicity: {because}");
         (Status::Complete, rounded, code, reason)
     };
     Verdict {

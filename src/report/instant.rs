@@ -184,7 +184,7 @@ fn poles(linkage: &Linkage, bodies: &[Body]) -> Value {
 /// A result for a reader.
 #[must_use]
 pub fn text(file: &LinkageFile, answer: &LinkageAnswer, result: &Value) -> String {
-    let mut text = format!("{}, case {}\n{}\n", file.heading.title, result["case"], linkage::verdict(answer));
+    let mut text = format!("{}, case {}\n{}\n", file.heading.title, result["case"], linkage::headline(&answer.verdict));
     for mode in result["modes"].as_array().into_iter().flatten() {
         text += &format!("\nmode {}\n", mode["id"]);
         for key in ["instant", "balance"] {

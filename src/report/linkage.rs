@@ -167,13 +167,21 @@ fn complex_count(verdict: &Verdict) -> Option<usize> {
     (!verdict.is_of_real_ones()).then_some(verdict.complex)
 }
 
-/// The verdict on one line.
+/// Returns the verdict on one line: how many assemblies there are, how many of them are real, and why.
 #[must_use]
-pub fn verdict(answer: &LinkageAnswer) -> String {
-    let verdict = &answer.verdict;
-    let complex = complex_count(verdict).map_or(String::new(), |complex| format!("{complex} complex, "));
+pub fn headline(verdict: &Verdict) -> String {
     let (status, proof) = (verdict.status.word(), verdict.proof.word());
-    format!("{status} ({proof}): {complex}{} real; {}", verdict.real, verdict.reason)
+    let real = match verdict.real {
+        0 => "none of them real".to_owned(),
+        real => format!("{real} of them real"),
+    };
+    let counts = match complex_count(verdict) {
+        // A motion, or equations that contradict one another: the reason says all.
+        Some(0) => String::new(),
+        Some(complex) => format!("{}, {real}; ", counted(complex, "assembly")),
+        None => format!("{}; ", counted(verdict.real, "real assembly")),
+    };
+    format!("{status} ({proof}): {counts}{}", verdict.reason)
 }
 
 /// Returns the answer to one case as tables, with complex assemblies on request.
@@ -181,7 +189,7 @@ pub fn verdict(answer: &LinkageAnswer) -> String {
 pub fn text(file: &LinkageFile, case: &LinkageCase, index: usize, answer: &LinkageAnswer, complex: bool) -> String {
     let linkage = &file.linkage;
     let mut text = format!("{}, case {index}: {}\n", file.heading.title, asked(linkage, &case.given));
-    paragraph(&mut text, &verdict(answer));
+    paragraph(&mut text, &headline(&answer.verdict));
     let groups: Vec<String> = answer
         .groups
         .iter()
@@ -239,11 +247,6 @@ pub fn text(file: &LinkageFile, case: &LinkageCase, index: usize, answer: &Linka
             &format!("family of dimension {}: the joints {} move", family.dimension, labels.join(", ")),
         );
     }
-    let _ = writeln!(
-        text,
-        "\n{} in {}",
-        counted(answer.modes.len(), "assembly").replace("assemblys", "assemblies"),
-        duration(answer.solve_us)
-    );
+    let _ = writeln!(text, "\n{} in {}", counted(answer.modes.len(), "assembly"), duration(answer.solve_us));
     text
 }

@@ -29,7 +29,7 @@ pub struct Asked {
 /// For a configuration that does not close, and for what is not decided yet, with the line.
 #[must_use]
 pub fn ask(any: &Any, path: &str) -> Option<Result<Asked>> {
-    let bodies = |count: usize| counted(count, "body").replace("bodys", "bodies");
+    let bodies = |count: usize| counted(count, "body");
     let of = |answer: Result<LinkageMobility>, line: Option<usize>, parts: (&Heading, String, Vec<String>, Value)| {
         let (heading, counts, joints, joint_variables) = parts;
         let answer = answer.map_err(|error| error.at(path, line.unwrap_or(1)))?;

@@ -61,13 +61,10 @@ pub fn digits(x: f64) -> String {
     text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
 }
 
-/// `1 pose`, `2 poses`.
+/// `1 pose`, `2 poses`, `2 assemblies`: no noun that is counted ends in a vowel and y.
 #[must_use]
 pub fn counted(count: usize, noun: &str) -> String {
-    let plural = match noun {
-        "entry" => "entries".to_owned(),
-        _ => format!("{noun}s"),
-    };
+    let plural = noun.strip_suffix('y').map_or_else(|| format!("{noun}s"), |stem| format!("{stem}ies"));
     format!("{count} {}", if count == 1 { noun } else { &plural })
 }
 

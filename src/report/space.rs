@@ -2,6 +2,7 @@
 
 use super::document::units;
 use super::json::{number, tenths, verdict as verdict_json};
+use super::linkage::headline;
 use super::model;
 use super::number::{counted, duration, short};
 use super::table::{Columns, paragraph};
@@ -165,20 +166,12 @@ pub fn result(file: &SpaceFile, case: &SpaceCase, index: usize, answer: &SpaceAn
     })
 }
 
-/// The verdict on one line.
-#[must_use]
-pub fn verdict(answer: &SpaceAnswer) -> String {
-    let verdict = &answer.verdict;
-    let (status, proof) = (verdict.status.word(), verdict.proof.word());
-    format!("{status} ({proof}): {} complex, {} real; {}", verdict.complex, verdict.real, verdict.reason)
-}
-
 /// Returns the answer to one case as tables, with complex assemblies on request.
 #[must_use]
 pub fn text(file: &SpaceFile, case: &SpaceCase, index: usize, answer: &SpaceAnswer, complex: bool) -> String {
     let linkage = &file.linkage;
     let mut text = format!("{}, case {index}: {}\n", file.heading.title, asked(file, &case.given));
-    paragraph(&mut text, &verdict(answer));
+    paragraph(&mut text, &headline(&answer.verdict));
     let groups = answer.groups.iter().map(|group| {
         let first = group.bodies.iter().filter_map(|bodies| bodies.first());
         let names: Vec<&str> = first.map(|body| linkage.bodies[*body].name.as_str()).collect();
@@ -231,7 +224,7 @@ pub fn text(file: &SpaceFile, case: &SpaceCase, index: usize, answer: &SpaceAnsw
     if rows > 0 {
         let _ = write!(text, "\n{}", table.text());
     }
-    let count = counted(answer.modes.len(), "assembly").replace("assemblys", "assemblies");
+    let count = counted(answer.modes.len(), "assembly");
     let _ = writeln!(text, "\n{count} in {}", duration(answer.solve_us));
     text
 }

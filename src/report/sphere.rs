@@ -2,6 +2,7 @@
 
 use super::document::units;
 use super::json::{number, tenths};
+use super::linkage::headline;
 use super::model;
 use super::number::{counted, duration, short};
 use super::table::{Columns, paragraph};
@@ -142,19 +143,11 @@ pub fn result(file: &SphereFile, case: &SphereCase, index: usize, answer: &Spher
     })
 }
 
-/// The verdict on one line.
-#[must_use]
-pub fn verdict(answer: &SphereAnswer) -> String {
-    let verdict = &answer.verdict;
-    let (status, proof) = (verdict.status.word(), verdict.proof.word());
-    format!("{status} ({proof}): {} complex, {} real; {}", verdict.complex, verdict.real, verdict.reason)
-}
-
 /// Returns the answer to one case as a table, with complex assemblies on request.
 #[must_use]
 pub fn text(file: &SphereFile, case: &SphereCase, index: usize, answer: &SphereAnswer, complex: bool) -> String {
     let mut text = format!("{}, case {index}: {}\n", file.heading.title, asked(file, &case.given));
-    paragraph(&mut text, &verdict(answer));
+    paragraph(&mut text, &headline(&answer.verdict));
     let mut header = vec!["mode".to_owned()];
     header.extend(file.linkage.joints.iter().map(|joint| format!("{} [deg]", joint.name)));
     let shown = (1..).zip(&answer.modes).filter(|(_, mode)| complex || mode.real);
@@ -176,7 +169,7 @@ pub fn text(file: &SphereFile, case: &SphereCase, index: usize, answer: &SphereA
     if rows > 0 {
         let _ = write!(text, "\n{}", table.text());
     }
-    let count = counted(answer.modes.len(), "assembly").replace("assemblys", "assemblies");
+    let count = counted(answer.modes.len(), "assembly");
     let _ = writeln!(text, "\n{count} in {}", duration(answer.solve_us));
     text
 }

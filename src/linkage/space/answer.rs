@@ -300,18 +300,12 @@ fn verdict(basis: &str, modes: &[SpaceMode], dimension: Option<usize>, has_point
             proved,
             format!("{basis}: the equations of the joints contradict one another"),
         ),
-        (Some(0), 0) => (
-            Status::Unreachable,
-            Code::NoSolution,
-            proved,
-            format!("{basis}: {complex} assemblies with multiplicity, none of them real"),
-        ),
-        (Some(0), _) => (
-            Status::Complete,
-            Code::GeneralBoundMet,
-            proved,
-            format!("{basis}: the joints have {complex} assemblies with multiplicity"),
-        ),
+        (Some(0), 0) => {
+            (Status::Unreachable, Code::NoSolution, proved, format!("{basis} counts them with multiplicity"))
+        }
+        (Some(0), _) => {
+            (Status::Complete, Code::GeneralBoundMet, proved, format!("{basis} counts them with multiplicity"))
+        }
         (Some(dimension), _) if has_point => (
             Status::SelfMotion,
             Code::SelfMotion,

@@ -117,12 +117,12 @@ fn verdict(modes: &[SphereMode], dimension: usize, exact: bool) -> Verdict {
         (0, _, 0) => (
             Status::Unreachable,
             Code::NoSolution,
-            format!("a Gröbner basis over the rationals: {complex} assemblies with multiplicity, none of them real"),
+            "a Gröbner basis over the rationals counts them with multiplicity".to_owned(),
         ),
         _ => (
             Status::Complete,
             Code::GeneralBoundMet,
-            format!("a Gröbner basis over the rationals: the axes have {complex} assemblies with multiplicity"),
+            "a Gröbner basis over the rationals counts them with multiplicity".to_owned(),
         ),
     };
     Verdict {

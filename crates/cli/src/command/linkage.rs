@@ -53,7 +53,7 @@ pub fn run(options: &SolveOptions, file: &LinkageFile, output: Output) -> Result
                 results.push(result);
             }
         } else if options.quiet {
-            writeln!(output.writer, "{}", report::verdict(&answer))?;
+            writeln!(output.writer, "{}", report::headline(&answer.verdict))?;
         } else {
             let gap = if index > 0 && options.asked.input.is_none() { "\n" } else { "" };
             write!(output.writer, "{gap}{}", report::text(file, case, index + 1, &answer, options.complex))?;

@@ -7,6 +7,7 @@ use super::output::Output;
 use looproot::internal::catalogue::SpaceFile;
 use looproot::internal::error::Error;
 use looproot::internal::linkage::space::solve;
+use looproot::internal::report::linkage::headline;
 use looproot::internal::report::space as report;
 use std::borrow::Cow;
 use std::io::Write;
@@ -63,7 +64,7 @@ pub fn run(options: &SolveOptions, file: &SpaceFile, output: Output) -> Result<E
                 results.push(result);
             }
         } else if options.quiet {
-            writeln!(output.writer, "{}", report::verdict(&answer))?;
+            writeln!(output.writer, "{}", headline(&answer.verdict))?;
         } else {
             let gap = if index > 0 && options.asked.input.is_none() { "\n" } else { "" };
             write!(output.writer, "{gap}{}", report::text(file, case, index + 1, &answer, options.complex))?;

@@ -15,6 +15,7 @@ use looproot::internal::linkage::space::solve as solve_in_space;
 use looproot::internal::linkage::sphere::solve;
 use looproot::internal::mechanism::{Derivatives, InputCurve, Mechanism};
 use looproot::internal::report::document::complete;
+use looproot::internal::report::linkage::headline;
 use looproot::internal::report::space_instant::{
     Asked, Pair, of_chain as chain_result, of_space as space_result, of_sphere as sphere_result, text,
 };
@@ -110,7 +111,7 @@ pub fn of_sphere(options: &InstantOptions, file: &SphereFile) -> Result<Exit, Fa
         if options.json {
             results.push(found);
         } else {
-            write!(output.writer, "{}", text(&file.heading.title, &spheres::verdict(&answer), &found))?;
+            write!(output.writer, "{}", text(&file.heading.title, &headline(&answer.verdict), &found))?;
         }
     }
     if options.json {
@@ -148,7 +149,7 @@ pub fn of_space(options: &InstantOptions, file: &SpaceFile) -> Result<Exit, Faul
         if options.json {
             results.push(found);
         } else {
-            write!(output.writer, "{}", text(&file.heading.title, &spaces::verdict(&answer), &found))?;
+            write!(output.writer, "{}", text(&file.heading.title, &headline(&answer.verdict), &found))?;
         }
     }
     if options.json {

@@ -15,6 +15,7 @@ use looproot::internal::derivation::{
 use looproot::internal::error::Error;
 use looproot::internal::kinematics::closed_loop::Variable;
 use looproot::internal::linkage::sphere::solve;
+use looproot::internal::report::linkage::headline;
 use looproot::internal::report::ratio::Ratio;
 use looproot::internal::report::sphere as report;
 use looproot::internal::report::sphere_sweep as sweeps;
@@ -73,7 +74,7 @@ pub fn run(options: &SolveOptions, file: &SphereFile, output: Output) -> Result<
                 results.push(result);
             }
         } else if options.quiet {
-            writeln!(output.writer, "{}", report::verdict(&answer))?;
+            writeln!(output.writer, "{}", headline(&answer.verdict))?;
         } else {
             let gap = if index > 0 && options.asked.input.is_none() { "\n" } else { "" };
             write!(output.writer, "{gap}{}", report::text(file, case, index + 1, &answer, options.complex))?;
