@@ -44,7 +44,7 @@ LEFT_OUT = {
     "eaik": "needs another solver",
     "--live": "needs web/build; .ci/web tests it",
     "PATH...": "stands for paths",
-    "--atlas": "derives the whole library; a test compares the atlas",
+    "--atlas": "derives the whole library, which takes minutes",
     "conditions 6R": "searches for minutes",
     "bench speed --set robots": "times a hundred robots: minutes without optimisation",
     "bench speed --set special-loops": "minutes without optimisation",

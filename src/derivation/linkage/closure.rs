@@ -13,7 +13,7 @@ use crate::kinematics::linkage::{Gaussian, Given, Linkage, Pair};
 use crate::linkage::assembly::{Asked, Assemblies, assemblies, glued};
 use crate::linkage::equations::{Closure, Equations};
 use crate::linkage::general::{residue, torus_degree};
-use crate::linkage::groups::MOST_CLUSTERS;
+use crate::linkage::groups::{MOST_CLUSTERS, Merged};
 use crate::linkage::isotropic::Isotropic;
 use crate::linkage::parts::{foundations, group_of};
 use crate::linkage::pencil::{Parameter, Pencil};
@@ -276,19 +276,14 @@ pub fn derive_linkage(linkage: &Linkage, given: &[Given]) -> Result<LinkageDeriv
         let message = format!("closure polynomials of linkages with gears, such as {}, are not derived", gear.name);
         return Err(Error::Unsupported(message));
     }
-    let found = assemblies(linkage, given, Asked { complex: true, stop: &AtomicBool::new(false) })?;
     let merged = glued(linkage, given)?.0;
-    let is_known = found.doubt.is_none() && found.curves.is_empty() && !found.only_real;
-    let mut warnings = Vec::new();
-    let mut polynomials = Vec::new();
-    for number in (0..found.groups.len()).rev() {
-        let needed = foundations(linkage, &found.groups, number, linkage.ground, &merged);
-        let known = is_known.then(|| needed.iter().map(|k| found.groups[*k].count).product());
-        let own = of_group(linkage, given, &found, &needed, known);
-        if own.is_empty() {
-            warnings.push(format!("group {} has no polynomial of its own: {}", number + 1, WITHOUT));
-        }
-        polynomials.extend(own);
+    let solved = |complex| assemblies(linkage, given, Asked { complex, stop: &AtomicBool::new(false) });
+    let mut found = solved(false)?;
+    let (mut polynomials, mut warnings) = of_groups(linkage, given, &found, &merged);
+    // The complex assemblies of a large group are needed for the count of its polynomial alone.
+    if found.only_real && !polynomials.is_empty() {
+        found = solved(true)?;
+        (polynomials, warnings) = of_groups(linkage, given, &found, &merged);
     }
     let relations: Vec<Option<Relation>> =
         polynomials.iter().map(|own| Relation::of(linkage, given, &found, &merged, own)).collect();
@@ -304,6 +299,27 @@ pub fn derive_linkage(linkage: &Linkage, given: &[Given]) -> Result<LinkageDeriv
     let equations = part.and_then(|(best, part, _)| part.equations(best.against));
     let (variables, equations) = equations.unwrap_or_default();
     Ok(LinkageDerivation { polynomials, input_output, relations, groups, equations, variables, is_bounded, warnings })
+}
+
+/// Returns the polynomials of all groups, the last group first, and what is to be said of groups without one.
+fn of_groups(
+    linkage: &Linkage,
+    given: &[Given],
+    found: &Assemblies,
+    merged: &Merged,
+) -> (Vec<GroupPolynomial>, Vec<String>) {
+    let is_known = found.doubt.is_none() && found.curves.is_empty() && !found.only_real;
+    let (mut polynomials, mut warnings) = (Vec::new(), Vec::new());
+    for number in (0..found.groups.len()).rev() {
+        let needed = foundations(linkage, &found.groups, number, linkage.ground, merged);
+        let known = is_known.then(|| needed.iter().map(|k| found.groups[*k].count).product());
+        let own = of_group(linkage, given, found, &needed, known);
+        if own.is_empty() {
+            warnings.push(format!("group {} has no polynomial of its own: {}", number + 1, WITHOUT));
+        }
+        polynomials.extend(own);
+    }
+    (polynomials, warnings)
 }
 
 const WITHOUT: &str =

@@ -60,10 +60,11 @@ fn blessed(path: &Path) -> Result<String> {
     };
     let before = fs::read_to_string(&target).ok();
     match (text, before) {
-        (None, None) => Ok("the equations are longer than two pages".to_owned()),
-        (None, Some(_)) => {
-            Err(fault(&target, "should not be there: the equations are longer than two pages".to_owned()))
-        }
+        (None, None) => Ok("there are no equations, or they are longer than two pages".to_owned()),
+        (None, Some(_)) => Err(fault(
+            &target,
+            "should not be there: there are no equations, or they are longer than two pages".to_owned(),
+        )),
         (Some(text), Some(before)) if text == before => Ok("up to date".to_owned()),
         (Some(text), _) => {
             write(&target, &text).map_err(|error| fault(&target, error.to_string()))?;
