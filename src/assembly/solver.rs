@@ -12,6 +12,7 @@ use super::prepared::PreparedCut;
 use super::search::{AS_IT_IS, Effort, Search};
 use super::shifted::Shifted;
 use crate::algebra::double_double::DoubleDouble;
+use crate::certify::certificate_in_any_frame;
 use crate::closure::half_angle::half_angle_form;
 use crate::elimination::coordinate_ring::Plan;
 use crate::elimination::cut::{Cut, Hidden};
@@ -22,9 +23,10 @@ use crate::kinematics::motion::{Motion, unit_near};
 use crate::kinematics::tolerance::Tolerance;
 use crate::solve::decoupled::Decoupled;
 use crate::solve::eigen::{EigenWorkspace, companion};
-use crate::solve::newton::product;
+use crate::solve::newton::{Six, product};
 use crate::solve::scalar::Extended;
 use crate::solve::singular::structural_rank;
+use num_complex::Complex;
 use std::sync::OnceLock;
 
 /// A prepared geometry, which solves many poses.
@@ -109,6 +111,11 @@ impl Gap {
     pub fn is_rough(&self) -> bool {
         self.is_rough
     }
+}
+
+/// The first imaginary part that is not 0, if there is one.
+fn first_part(unknowns: &Six<Complex<f64>>) -> f64 {
+    unknowns.iter().map(|z| z.im).find(|x| *x != 0.0).unwrap_or(0.0)
 }
 
 fn length(motion: &Motion<f64>) -> f64 {
@@ -432,6 +439,24 @@ impl Solver {
             }
             Margin::Blur(blur) => [gap.rounding, blur],
         }
+    }
+
+    /// Returns whether each of these complex solutions is proved to stay one, complex and regular, at every pose within the tolerance.
+    ///
+    /// Where they are as many as the geometry has at any pose, none of these poses has a real solution: at a pose near it that is general,
+    /// the configurations beside a real one would be solutions beyond their number.
+    #[must_use]
+    pub fn stay_complex(&self, gap: &Gap, tolerance: Tolerance, modes: &[Mode]) -> bool {
+        let closed = self.close(gap);
+        let [off, _] = self.margins(gap, Margin::Tolerance(tolerance));
+        let unit = |variable: Variable| if variable == Variable::Translation { self.scale } else { 1.0 };
+        // A solution and its conjugate are proved alike.
+        modes.iter().filter(|mode| first_part(&mode.unknowns) >= 0.0).all(|mode| {
+            let own: Six<Complex<f64>> = std::array::from_fn(|k| mode.unknowns[k] / unit(closed.variables[k]));
+            let farthest = own.iter().map(|z| z.im.abs()).fold(0.0, f64::max);
+            let proof = certificate_in_any_frame(&closed, &own, off);
+            !mode.real && proof.is_some_and(|proof| proof.radius < farthest)
+        })
     }
 
     /// Returns the loop closed at a place without any property, of which there are six.

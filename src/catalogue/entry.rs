@@ -111,6 +111,9 @@ pub struct Case {
     pub legs_squared: Option<[Number; 6]>,
     /// One unit of the last printed digit of the pose, which limits its accuracy.
     pub typed: Option<Tolerance>,
+    /// What typing rounded the pose by, at most: one unit of the last digit of its decimals, 0 where it has whole numbers and
+    /// expressions only.
+    pub rounding: Option<Tolerance>,
     /// Claims about this case.
     pub expected: Expected,
     /// Warnings to repeat in every report on this case (for example about a projected pose).
@@ -187,7 +190,7 @@ impl Case {
 
     fn empty(line: usize) -> Self {
         let (expected, warnings) = (Expected::default(), Vec::new());
-        Self { pose: None, input: Vec::new(), legs_squared: None, typed: None, expected, warnings, line }
+        Self { pose: None, input: Vec::new(), legs_squared: None, typed: None, rounding: None, expected, warnings, line }
     }
 }
 

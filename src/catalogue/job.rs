@@ -5,13 +5,12 @@ use super::geometry::{Mechanism, mechanism, variable_value};
 use super::node::{Node, Value};
 use super::options::Chains;
 use super::platform;
-use super::poses;
+use super::poses::{self, Typed};
 use super::scope::{Scope, Table};
 use crate::algebra::number::{Number, Quantity};
 use crate::error::Result;
 use crate::kinematics::chain::{Chain, JointKind};
 use crate::kinematics::freedom::Freedom;
-use crate::kinematics::tolerance::Tolerance;
 
 /// Number of correct digits of a claimed solution that gives none.
 const DIGITS: u32 = 6;
@@ -159,12 +158,12 @@ pub(super) fn pose(scope: &Scope<'_>, node: &Node, design: &Design) -> Result<Ca
         Design::Arm(_) | Design::Loop(_) => Case::at(pose, line),
     };
     let warnings = [scope.take_warnings(), case.warnings].concat();
-    let typed = Some(typed(scope, &table));
-    Ok(Case { typed, expected, warnings, ..case })
+    let Typed { unit, rounding } = typed(scope, &table);
+    Ok(Case { typed: Some(unit), rounding: Some(rounding), expected, warnings, ..case })
 }
 
-/// Returns one unit of the last digit of a pose.
-fn typed(scope: &Scope<'_>, table: &Table<'_>) -> Tolerance {
+/// Returns how exactly a pose is typed.
+fn typed(scope: &Scope<'_>, table: &Table<'_>) -> Typed {
     let (mut lengths, mut others) = (Vec::new(), Vec::new());
     if let Some(matrix) = table.get("matrix") {
         for row in scope.list(matrix, "matrix").unwrap_or(&[]).iter().take(3) {
@@ -177,7 +176,7 @@ fn typed(scope: &Scope<'_>, table: &Table<'_>) -> Tolerance {
     lengths.extend(list("position").iter().filter_map(printed));
     others.extend(list("quaternion").iter().filter_map(printed));
     let is_quaternion = table.get("quaternion").is_some();
-    poses::typed(lengths.into_iter(), others.into_iter(), poses::Of::Rotation, &scope.reading, is_quaternion)
+    poses::typed(&lengths, &others, poses::Of::Rotation, &scope.reading, is_quaternion)
 }
 
 /// Returns the printed form of a number.

@@ -118,7 +118,9 @@ impl<'a> PoseRows<'a> {
         let (placement, warning) = self.placement(&values).map_err(|fault| fault.at(self.path, line))?;
         let mut case = of_design(self.design, placement, line);
         case.warnings.extend(warning);
-        case.typed = (!self.are_doubles).then(|| self.typed(&values));
+        if !self.are_doubles {
+            self.typed(&values).of(&mut case);
+        }
         Ok(case)
     }
 
@@ -166,11 +168,17 @@ impl<'a> PoseRows<'a> {
             let own = (0..cells.len()).filter(|k| self.form.is_length(*k) == lengths);
             own.map(|k| values[k].last_digit()).fold(COARSEST, f64::min)
         };
-        let factor = if self.form == Form::Quaternion { OF_QUATERNION } else { 1.0 };
-        let typed = Tolerance { length: least(true), angle: least(false) * factor };
+        let texts = |lengths: bool| {
+            let own = self.columns.iter().zip(cells).filter(move |((place, _), _)| self.form.is_length(*place) == lengths);
+            own.map(|(_, cell)| *cell)
+        };
         let mut case = of_design(self.design, placement, line);
         case.warnings.extend(warning);
-        case.typed = (!self.are_doubles).then_some(typed);
+        if !self.are_doubles {
+            let units = [least(true), least(false)];
+            let rounding = [rounding(units[0], texts(true)), rounding(units[1], texts(false))];
+            Typed::new(units, rounding, self.form == Form::Quaternion).of(&mut case);
+        }
         Some(case)
     }
 
@@ -222,13 +230,14 @@ impl<'a> PoseRows<'a> {
         }
     }
 
-    /// Returns one unit of the last digit typed.
-    fn typed(&self, values: &[String]) -> Tolerance {
-        let is_length = |k: &usize| self.form.is_length(*k);
-        let texts =
-            |lengths: bool| (0..values.len()).filter(move |k| is_length(k) == lengths).map(|k| values[k].as_str());
+    /// Returns how exactly these values are typed.
+    fn typed(&self, values: &[String]) -> Typed {
+        let texts = |lengths: bool| -> Vec<&str> {
+            let own = values.iter().enumerate().filter(|(k, _)| self.form.is_length(*k) == lengths);
+            own.map(|(_, value)| value.as_str()).collect()
+        };
         let of_angles = if self.form == Form::Angles { Of::Angles } else { Of::Rotation };
-        typed(texts(true), texts(false), of_angles, &self.reading, self.form == Form::Quaternion)
+        typed(&texts(true), &texts(false), of_angles, &self.reading, self.form == Form::Quaternion)
     }
 }
 
@@ -298,30 +307,64 @@ pub(super) enum Of {
     Angles,
 }
 
-/// Returns the tolerance of a pose as typed: one unit of the last digit of its lengths and of its orientation.
-pub(super) fn typed<'a>(
-    lengths: impl Iterator<Item = &'a str>,
-    orientation: impl Iterator<Item = &'a str>,
+/// How exactly a pose is typed.
+pub(super) struct Typed {
+    /// One unit of the last digit of its lengths and of its orientation.
+    pub unit: Tolerance,
+    /// The same where they are rounded, 0 where they are not.
+    pub rounding: Tolerance,
+}
+
+impl Typed {
+    /// Takes the units and the roundings of the lengths and of the orientation.
+    fn new(units: [f64; 2], rounding: [f64; 2], is_quaternion: bool) -> Self {
+        let factor = if is_quaternion { OF_QUATERNION } else { 1.0 };
+        let tolerance = |[length, angle]: [f64; 2]| Tolerance { length, angle: angle * factor };
+        Self { unit: tolerance(units), rounding: tolerance(rounding) }
+    }
+
+    fn of(self, case: &mut Case) {
+        (case.typed, case.rounding) = (Some(self.unit), Some(self.rounding));
+    }
+}
+
+/// Returns how exactly a pose of these lengths and this orientation is typed.
+pub(super) fn typed(
+    lengths: &[&str],
+    orientation: &[&str],
     of: Of,
     reading: &Reading,
     is_quaternion: bool,
-) -> Tolerance {
-    let length = |text: &str| {
+) -> Typed {
+    let length = |text: &&str| {
         let (digits, unit) = split(text);
         let one = Number::parse(&format!("1 {unit}"), Quantity::Length, reading);
         let scale = if unit.is_empty() { reading.length.to_f64() } else { one.map_or(1.0, |one| one.to_f64()) };
         last_digit(digits) * scale
     };
-    let angle = |text: &str| {
+    let angle = |text: &&str| {
         let (digits, unit) = split(text);
         let in_degrees = unit == "deg" || unit.is_empty() && reading.degrees;
         last_digit(digits) * if of == Of::Angles && in_degrees { 1_f64.to_radians() } else { 1.0 }
     };
-    let factor = if is_quaternion { OF_QUATERNION } else { 1.0 };
-    Tolerance {
-        length: lengths.map(length).fold(COARSEST, f64::min),
-        angle: orientation.map(angle).fold(COARSEST, f64::min) * factor,
-    }
+        let units = [
+        lengths.iter().map(length).fold(COARSEST, f64::min),
+        orientation.iter().map(angle).fold(COARSEST, f64::min),
+    ];
+    let of_texts = |unit: f64, texts: &[&str]| rounding(unit, texts.iter().map(|text| split(text).0));
+    Typed::new(units, [of_texts(units[0], lengths), of_texts(units[1], orientation)], is_quaternion)
+}
+
+/// Returns the unit of the last digit of numbers of which one at least is rounded, else 0. What is less than a tolerance is not asked.
+fn rounding<'a>(unit: f64, mut texts: impl Iterator<Item = &'a str>) -> f64 {
+    if unit <= Tolerance::default().length || texts.any(is_rounded) { unit } else { 0.0 }
+}
+
+/// Whether a number is a decimal with digits behind the point. Whole numbers and expressions are meant as they stand; `1.0` is what
+/// programs print for a whole number.
+fn is_rounded(text: &str) -> bool {
+    let is_plain = text.bytes().all(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+' | b'e' | b'E'));
+    is_plain && text.contains(['.', 'e', 'E']) && !text.ends_with(".0")
 }
 
 /// Splits a number and its unit.
@@ -402,7 +445,7 @@ pub fn typed_pose(text: &str, option: &str, design: &Design, reading: &Reading) 
     let (placement, warning) = rows.placement(&values).map_err(|fault| fault.of_option(option))?;
     let mut case = of_design(design, placement, 1);
     case.warnings.extend(warning);
-    case.typed = Some(rows.typed(&values));
+    rows.typed(&values).of(&mut case);
     Ok(case)
 }
 

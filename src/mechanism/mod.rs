@@ -10,6 +10,7 @@ mod family;
 mod input_curve;
 mod instant;
 mod near;
+mod nearest;
 mod overconstrained_loop;
 mod platform;
 mod redundancy;
@@ -223,9 +224,7 @@ impl Mechanism {
         assembly: &mut Assembly,
     ) -> Result<Solution> {
         let mut solution = match &self.solver {
-            Solver::SingleLoop(solver) => {
-                solver.solve(case, roots, self.tolerance.unwrap_or_default(), workspace, assembly)
-            }
+            Solver::SingleLoop(solver) => solver.solve(case, roots, self.tolerance, workspace, assembly),
             Solver::OverconstrainedLoop(solver) => solver.solve(case, roots, workspace, assembly),
             Solver::Platform(solver) => solver.solve(case, roots, workspace),
             Solver::TaskArm(solver) => solver.solve(case, roots, self.tolerance, workspace, assembly),

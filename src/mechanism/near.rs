@@ -1,6 +1,7 @@
 //! Configurations that reach a pose within the tolerance but not exactly. A pose that is typed is rounded, and a singular pose is
 //! lost by rounding: a double solution becomes a complex pair, and a self-motion becomes a few isolated solutions.
 
+use super::nearest::nearest as nearest_to;
 use super::singular_posture::{MOST_CORANK, Postures, Singular};
 use crate::assembly::wrapped;
 use crate::kinematics::chain::Placement;
@@ -32,8 +33,8 @@ pub(super) struct Neighbourhood<'a> {
     pub tolerance: Tolerance,
     /// Whether the joints are dependent in every position.
     pub is_deficient: bool,
-    /// Whether the exact data leave no solution to start from, not even a complex one, and reach alone does not deny the pose:
-    /// rounding may have sent all of a self-motion to infinity.
+    /// Whether the exact data leave no solution to start from, not even a complex one, and nothing denies the pose: rounding may have sent
+    /// all of a self-motion to infinity.
     pub is_empty: bool,
 }
 
@@ -48,6 +49,13 @@ pub(super) struct Start {
     pub condition: f64,
 }
 
+impl Start {
+    /// Whether it is the first one of a pair of conjugates, or real.
+    fn is_first(&self) -> bool {
+        self.unknowns.iter().map(|z| z.im).find(|x| *x != 0.0).is_none_or(|x| x > 0.0)
+    }
+}
+
 /// The configurations and families near a pose.
 #[derive(Debug, Default)]
 pub(super) struct Near {
@@ -55,6 +63,13 @@ pub(super) struct Near {
     pub modes: Vec<(Six<f64>, PoseError)>,
     /// Self-motions.
     pub families: Vec<NearFamily>,
+}
+
+impl Near {
+    /// Whether nothing is near.
+    pub fn is_empty(&self) -> bool {
+        self.modes.is_empty() && self.families.is_empty()
+    }
 }
 
 /// A self-motion near a pose.
@@ -114,10 +129,8 @@ impl Neighbourhood<'_> {
         let imaginary = |start: &Start| start.unknowns.iter().map(|z| z.im.abs()).fold(0.0, f64::max);
         let is_split = |start: &Start| !start.is_real && imaginary(start) < widest;
         let is_beside = |start: &Start| is_split(start) || !(start.condition < BESIDE / within.sqrt());
-        // One of a pair of conjugates.
-        let is_first = |start: &Start| start.unknowns.iter().map(|z| z.im).find(|x| *x != 0.0).is_none_or(|x| x > 0.0);
         let all = middles.iter().chain(bad).chain(real.iter().chain(&complex).copied().filter(|start| {
-            is_beside(start) && if start.is_real { start.condition < CONDITION / within } else { is_first(start) }
+            is_beside(start) && if start.is_real { start.condition < CONDITION / within } else { start.is_first() }
         }));
         for start in all.take(MOST_STARTS) {
             let is_far = if start.is_real { start.condition < CONDITION / within } else { !is_split(start) };
@@ -178,6 +191,20 @@ impl Neighbourhood<'_> {
         self.add_crossing(families, &mut near);
         self.rest_spherical(&real, &mut near);
         near
+    }
+
+    /// Returns by how many tolerances the pose is missed where least squares come nearest to it, from solutions and from places all over;
+    /// `None` where one joint at least is a virtual one.
+    pub fn closest(&self, solutions: &[Start]) -> Option<f64> {
+        self.postures()?;
+        let moving: Vec<usize> = (0..6).collect();
+        let first = solutions.iter().filter(|start| start.is_first()).map(|start| start.unknowns.map(|z| z.re));
+        let others = (1..=TRIALS).map(|trial| spread(&self.closed.variables, trial));
+        let found = first.chain(others).map(|start| {
+            let from = self.values(&start);
+            self.tolerance.parts(&nearest_to(self.forward, &from, &moving, &self.pose.float, self.tolerance).1)
+        });
+        found.reduce(f64::min)
     }
 
     /// The middles of pairs of solutions that are one but for rounding. Where two singular positions meet, rounding splits the solution

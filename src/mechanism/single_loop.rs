@@ -1,6 +1,7 @@
 //! Arms and loops of seven joint variables: one loop of six unknowns for each choice of the locked variable.
 
 mod closed_form;
+mod denial;
 mod exact_roots;
 mod far_away;
 mod groups;
@@ -174,14 +175,17 @@ impl SingleLoop {
         &self,
         case: &Case,
         roots: Roots,
-        tolerance: Tolerance,
+        tolerance: Option<Tolerance>,
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) -> Result<Solution> {
         let mut solution = self.list(case, roots, tolerance, workspace, assembly)?;
         // Real solutions alone do not show whether a root is multiple or one of a motion: the equations do, which have complex ones, too.
         let is_arm = || case.pose.is_some() && self.chain.joint_kinds().iter().all(|kind| *kind == JointKind::Revolute);
-        let is_open = |verdict: &Verdict| is_left_to_equations(verdict) || verdict.code == Code::OnlyReal && is_arm();
+        let is_open = |verdict: &Verdict| {
+            let is_left = is_left_to_equations(verdict) && verdict.code != Code::NearNotDecided;
+            is_left || verdict.code == Code::OnlyReal && is_arm()
+        };
         if roots == Roots::Real && is_open(&solution.verdict) && !workspace.only_lists {
             let all = self.list(case, Roots::All, tolerance, workspace, assembly)?;
             solution = Solution { solve_us: solution.solve_us + all.solve_us, ..all.of_real() };
@@ -194,7 +198,7 @@ impl SingleLoop {
         &self,
         case: &Case,
         roots: Roots,
-        tolerance: Tolerance,
+        tolerance: Option<Tolerance>,
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) -> Result<Solution> {
@@ -221,8 +225,17 @@ impl SingleLoop {
                 Some((own, us)) if !is_whole => {
                     (*own, *us, exact_modes) = (verdict, start.elapsed().as_secs_f64() * 1e6, Some(modes));
                 }
-                _ if !is_whole && verdict.status == Status::Unreachable && !question.is_clear(tolerance) => {
-                    return Ok(exact_solution(case, perhaps_near(&verdict), modes, *prepare_us, start));
+                _ if !is_whole
+                    && verdict.status == Status::Unreachable
+                    && !question.is_clear(tolerance.unwrap_or_default()) =>
+                {
+                    return Ok(exact_solution(
+                        case,
+                        perhaps_near(&verdict, Code::StructurallyDeficient),
+                        modes,
+                        *prepare_us,
+                        start,
+                    ));
                 }
                 _ => return Ok(exact_solution(case, verdict, modes, *prepare_us, start)),
             }
@@ -266,7 +279,7 @@ impl SingleLoop {
         prepared: &'a SixUnknowns,
         case: &'a Case,
         roots: Roots,
-        tolerance: Tolerance,
+        tolerance: Option<Tolerance>,
         workspace: &Workspace,
         gap: &'a Gap,
     ) -> Question<'a> {
@@ -279,7 +292,8 @@ impl SingleLoop {
             only_lists: workspace.only_lists,
             only_real_list: workspace.only_real_list || roots == Roots::Real,
             real_first: workspace.real_first,
-            tolerance: case.pose.is_some().then_some(tolerance),
+            tolerance: case.pose.is_some().then_some(tolerance.unwrap_or_default()),
+            rounding: if tolerance.is_none() { case.rounding } else { None },
             gap,
             by_cuts: OnceCell::new(),
             ring: OnceCell::new(),
@@ -316,15 +330,8 @@ impl SingleLoop {
         let is_moving = verdict.status == Status::SelfMotion;
         let mut families = if is_moving { vicinity.families(&assembly.families) } else { Vec::new() };
         if let (Some(pose), Some(tolerance)) = (&case.pose, question.tolerance) {
-            let near = vicinity.near(pose, tolerance, &verdict, assembly);
+            let (near, tolerance) = question.near(&vicinity, pose, tolerance, &mut verdict, assembly);
             vicinity.list(&near, tolerance, &mut modes, &mut families);
-            if verdict.status == Status::Unreachable {
-                if !(near.modes.is_empty() && near.families.is_empty()) {
-                    verdict.status = Status::Complete;
-                } else if solver.structural_rank() < 6 && !question.is_clear(tolerance) {
-                    verdict = perhaps_near(&verdict);
-                }
-            }
         }
         let warnings = case.warnings.clone();
         Solution { arm: None, families, verdict, modes, warnings, prepare_us, solve_us, platform: None }
@@ -436,6 +443,8 @@ struct Question<'a> {
     real_first: bool,
     /// The tolerance of a pose.
     tolerance: Option<Tolerance>,
+    /// What typing rounded the pose by, where no tolerance was asked for.
+    rounding: Option<Tolerance>,
     gap: &'a Gap,
     /// The exact count of all cuts.
     by_cuts: OnceCell<Option<Degree>>,
@@ -676,15 +685,6 @@ impl Question<'_> {
         }
         let proof = Proof::Probable { error: drawn::PROBABILITY_OF_ERROR, seed: drawn::seed() };
         Verdict { proof: if self.is_rounded() { Proof::None } else { proof }, ..verdict }
-    }
-
-    /// Returns whether it is proved that no real configuration reaches the pose, or closes the loop, within the tolerance.
-    fn is_clear(&self, tolerance: Tolerance) -> bool {
-        let SixUnknowns { solver, .. } = self.prepared;
-        let beyond =
-            solver.too_far(self.gap).map(|(gap, links)| gap - links - tolerance.length - tolerance.angle * links);
-        let is_contradictory = |plan| self.prepared.is_clear(&self.of.chain, self.case, plan, tolerance);
-        beyond.is_some_and(|beyond| beyond > 0.0) || self.plan().is_some_and(is_contradictory)
     }
 
     /// Whether the solutions are roots of eliminants that decide what f64 leaves open.

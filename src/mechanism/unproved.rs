@@ -42,13 +42,13 @@ pub(super) fn not_denied(verdict: Verdict) -> Verdict {
     Verdict { status: Status::Incomplete, complex_complete: false, reason, ..verdict }
 }
 
-/// Returns the verdict on a pose that dependent joints do not reach exactly, where it is not proved that nothing comes near it.
-pub(super) fn perhaps_near(verdict: &Verdict) -> Verdict {
+/// Returns the verdict on a pose that nothing reaches exactly, where it is not proved that nothing comes near it.
+pub(super) fn perhaps_near(verdict: &Verdict, code: Code) -> Verdict {
     let reason = format!(
         "not proved: nothing was found near the pose, but rounding decides what reaches it exactly; {}",
         verdict.reason
     );
-    let (status, proof, code) = (Status::Incomplete, Proof::None, Code::StructurallyDeficient);
+    let (status, proof) = (Status::Incomplete, Proof::None);
     Verdict { status, proof, code, complex_complete: false, reason, ..verdict.clone() }
 }
 

@@ -14,7 +14,7 @@ use crate::solve::curve::CLOSES_WITHIN;
 use crate::solve::dense;
 use crate::solve::newton::{Six, closure};
 use crate::solve::self_motion::SelfMotion;
-use crate::verdict::{Code, Status, Verdict};
+use crate::verdict::{Status, Verdict};
 use num_complex::Complex;
 
 /// One case of a loop of six unknowns.
@@ -72,6 +72,25 @@ impl Vicinity<'_> {
     pub fn near(&self, pose: &Placement, tolerance: Tolerance, verdict: &Verdict, assembly: &Assembly) -> Near {
         let status = verdict.status;
         let is_moving = status == Status::SelfMotion;
+        let starts = if status == Status::Incomplete { Vec::new() } else { self.starts(assembly) };
+        let (closed, scale) = self.closed();
+        let inside: Vec<SelfMotion> =
+            assembly.families.iter().map(|motion| scaled(motion, &closed, 1.0 / scale)).collect();
+        let (exact, seen) = if is_moving { (inside, Vec::new()) } else { (Vec::new(), inside) };
+        let is_empty = status == Status::Unreachable && starts.is_empty();
+        let run = |here: &Neighbourhood<'_>| here.run(&starts, &exact, &seen);
+        self.neighbourhood(pose, tolerance, is_empty, run).unwrap_or_default()
+    }
+
+    /// Returns by how many tolerances the configuration misses the pose of an arm that comes nearest to it as far as is known; `None`
+    /// where nothing is.
+    pub fn closest(&self, pose: &Placement, tolerance: Tolerance, assembly: &Assembly) -> Option<f64> {
+        let starts = self.starts(assembly);
+        self.neighbourhood(pose, tolerance, false, |here| here.closest(&starts))?
+    }
+
+    /// The solutions of a list, in the unit of the loop.
+    fn starts(&self, assembly: &Assembly) -> Vec<Start> {
         let (closed, scale) = self.closed();
         let unit = |variable: Variable| if variable == Variable::Rotation { 1.0 } else { scale };
         let start = |mode: &Mode| Start {
@@ -79,23 +98,25 @@ impl Vicinity<'_> {
             is_real: mode.real,
             condition: mode.condition,
         };
-        let modes = if status == Status::Incomplete { &[] } else { assembly.modes.as_slice() };
-        let starts: Vec<Start> = modes.iter().map(start).collect();
-        let inside: Vec<SelfMotion> =
-            assembly.families.iter().map(|motion| scaled(motion, &closed, 1.0 / scale)).collect();
-        let (exact, seen) = if is_moving { (inside, Vec::new()) } else { (Vec::new(), inside) };
+        assembly.modes.iter().map(start).collect()
+    }
+
+    /// Asks the neighbourhood of a pose; `None` where the numbers of the arm are not known well enough.
+    fn neighbourhood<T>(
+        &self,
+        pose: &Placement,
+        tolerance: Tolerance,
+        is_empty: bool,
+        ask: impl FnOnce(&Neighbourhood<'_>) -> T,
+    ) -> Option<T> {
+        let (closed, scale) = self.closed();
         let layout = &self.prepared.layout;
-        let forward = self.of.forward.get_or_init(|| Forward::of(&self.of.chain));
-        let Some(forward) = forward else { return Near::default() };
+        let forward = self.of.forward.get_or_init(|| Forward::of(&self.of.chain)).as_ref()?;
         let solver = &self.prepared.solver;
         let closed_at = |pose: &Motion<f64>| solver.closed(&solver.gap(&pose.inverse())).0;
         let is_deficient = solver.structural_rank() < 6;
-        // Where the closure polynomial of no pose within the tolerance has a real zero, there is nothing to start from either.
-        let is_denied = matches!(verdict.code, Code::OutOfReach | Code::RealZerosMatched);
-        let is_empty = status == Status::Unreachable && starts.is_empty() && !is_denied;
         let (closed, closed_at) = (&closed, &closed_at);
-        let here = Neighbourhood { forward, layout, pose, closed, closed_at, scale, tolerance, is_deficient, is_empty };
-        here.run(&starts, &exact, &seen)
+        Some(ask(&Neighbourhood { forward, layout, pose, closed, closed_at, scale, tolerance, is_deficient, is_empty }))
     }
 
     /// Adds what is near to an answer, behind what is exact.

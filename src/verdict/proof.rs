@@ -78,6 +78,8 @@ pub enum Code {
     NotDistinct,
     /// A solution is neither proved real nor proved complex.
     RealOrComplex,
+    /// No real configuration reaches the pose exactly; whether one comes near it is not decided.
+    NearNotDecided,
     /// More solutions were found than can exist.
     TooMany,
     /// Fewer solutions were found than there may be.
@@ -146,6 +148,7 @@ impl Code {
             Self::NoCertificate => "no-certificate",
             Self::NotDistinct => "not-distinct",
             Self::RealOrComplex => "real-or-complex",
+            Self::NearNotDecided => "near-not-decided",
             Self::TooMany => "too-many",
             Self::TooFew => "too-few",
             Self::OnlyReal => "only-real",

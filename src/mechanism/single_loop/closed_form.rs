@@ -19,7 +19,7 @@ impl SingleLoop {
         &self,
         case: &Case,
         roots: Roots,
-        tolerance: Tolerance,
+        tolerance: Option<Tolerance>,
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) -> Result<Option<Solution>> {

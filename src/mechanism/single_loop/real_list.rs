@@ -66,7 +66,7 @@ impl Question<'_> {
         is_proved.then(|| of_real_zeros(assembly))
     }
 
-    fn real_by(&self, way: Way, margin: Margin, workspace: &mut Workspace, assembly: &mut Assembly) -> bool {
+    pub(super) fn real_by(&self, way: Way, margin: Margin, workspace: &mut Workspace, assembly: &mut Assembly) -> bool {
         let exact = || self.prepared.exact(&self.of.chain);
         !self.only_lists && way(&self.prepared.solver, self.gap, &exact, margin, workspace, assembly)
     }

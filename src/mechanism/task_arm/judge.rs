@@ -1,6 +1,5 @@
 //! Arms of few joints: which solutions of the conditions that they meet are solutions of the pose.
 
-use super::near::nearest;
 use super::{Found, Inner, OF_FEW, TaskArm, Tools, conditions_of};
 use crate::catalogue::entry::Case;
 use crate::error::Result;
@@ -9,6 +8,7 @@ use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::screws::VirtualJoint;
 use crate::kinematics::task::Task;
 use crate::kinematics::tolerance::{PoseError, Tolerance};
+use crate::mechanism::nearest::nearest;
 use crate::mechanism::{ArmAnswer, Family, FullMode, Solution};
 use crate::verdict::{Code, Proof, Status};
 use std::f64::consts::TAU;

@@ -3,7 +3,6 @@
 
 mod choice;
 mod judge;
-mod near;
 mod redundant;
 mod trace;
 
@@ -184,7 +183,7 @@ impl TaskArm {
 
     /// The solutions of a loop of six unknowns.
     fn by(&self, inner: &Inner, case: &Case, pose: &Placement, with: &mut Tools<'_>) -> Result<(Solution, Vec<Found>)> {
-        let tolerance = with.tolerance.unwrap_or_default();
+        let tolerance = with.tolerance;
         let solution = self.with_solver(inner, case, pose, |solver, case| {
             solver.solve(case, with.roots, tolerance, with.workspace, with.assembly)
         })?;
@@ -199,7 +198,7 @@ impl TaskArm {
         pose: &Placement,
         with: &mut Tools<'_>,
     ) -> Result<Option<(Solution, Vec<Found>)>> {
-        let tolerance = with.tolerance.unwrap_or_default();
+        let tolerance = with.tolerance;
         let solution = self.with_solver(inner, case, pose, |solver, case| {
             solver.solve_in_closed_form(case, Roots::All, tolerance, with.workspace, with.assembly)
         })?;

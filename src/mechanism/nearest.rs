@@ -4,12 +4,15 @@ use crate::kinematics::forward::Forward;
 use crate::kinematics::motion::Motion;
 use crate::kinematics::tolerance::{PoseError, Tolerance};
 use looproot_calculus::finite::finite;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Dyn, SVD};
 
 /// Steps of the search: each one squares what is missing, or halves it at a double root.
 const STEPS: usize = 40;
 /// Singular values below this part of the largest one count as zero.
 const RANK: f64 = 1e-10;
+/// Steps are damped by these parts of the largest singular value where none along the undamped step helps: beside a singular posture the
+/// undamped one leads far away.
+const DAMPED: [f64; 3] = [1e-4, 1e-3, 1e-2];
 
 /// The configuration near `start` that comes nearest to a pose, in units of the tolerance, and by how much it misses.
 pub(super) fn nearest(
@@ -34,20 +37,33 @@ pub(super) fn nearest(
             _ => turned[i - 3] / tolerance.angle,
         });
         let svd = finite(matrix).svd(true, true);
-        let Ok(step) = svd.solve(&residual, RANK * svd.singular_values.max()) else { break };
-        // A step that does not help is halved; at the nearest configuration none helps.
-        let tried = (0..6).map(|halvings| {
+        let largest = svd.singular_values.max();
+        let Ok(step) = svd.solve(&residual, RANK * largest) else { break };
+        let moved = |step: &DVector<f64>, part: f64| {
             let mut there = q.clone();
             for (value, joint) in step.iter().zip(moving) {
-                there[*joint] += value * 0.5_f64.powi(halvings);
+                there[*joint] += value * part;
             }
             let miss = PoseError::between(&forward.pose(&there), wanted);
             (there, miss)
-        });
-        let Some((there, miss)) = tried.into_iter().find(|(_, miss)| scale(miss) < scale(&best)) else { break };
+        };
+        // A step that does not help is halved; at the nearest configuration none helps.
+        let halved = (0..6).map(|halvings| moved(&step, 0.5_f64.powi(halvings)));
+        let damped = DAMPED.iter().filter_map(|part| Some(moved(&damped(&svd, &residual, part * largest)?, 1.0)));
+        let Some((there, miss)) = halved.chain(damped).find(|(_, miss)| scale(miss) < scale(&best)) else { break };
         (q, best) = (there, miss);
     }
     (q, best)
+}
+
+/// The step of least squares that is damped by so much.
+fn damped(svd: &SVD<f64, Dyn, Dyn>, residual: &DVector<f64>, by: f64) -> Option<DVector<f64>> {
+    let (left, right) = (svd.u.as_ref()?, svd.v_t.as_ref()?);
+    let mut along = left.tr_mul(residual);
+    for (value, own) in along.iter_mut().zip(&svd.singular_values) {
+        *value *= own / (own * own + by * by);
+    }
+    Some(right.tr_mul(&along))
 }
 
 /// The rotation from one orientation to another as a vector along its axis, as long as its angle; small angles are meant.
