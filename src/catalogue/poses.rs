@@ -169,7 +169,8 @@ impl<'a> PoseRows<'a> {
             own.map(|k| values[k].last_digit()).fold(COARSEST, f64::min)
         };
         let texts = |lengths: bool| {
-            let own = self.columns.iter().zip(cells).filter(move |((place, _), _)| self.form.is_length(*place) == lengths);
+            let own =
+                self.columns.iter().zip(cells).filter(move |((place, _), _)| self.form.is_length(*place) == lengths);
             own.map(|(_, cell)| *cell)
         };
         let mut case = of_design(self.design, placement, line);
@@ -329,13 +330,7 @@ impl Typed {
 }
 
 /// Returns how exactly a pose of these lengths and this orientation is typed.
-pub(super) fn typed(
-    lengths: &[&str],
-    orientation: &[&str],
-    of: Of,
-    reading: &Reading,
-    is_quaternion: bool,
-) -> Typed {
+pub(super) fn typed(lengths: &[&str], orientation: &[&str], of: Of, reading: &Reading, is_quaternion: bool) -> Typed {
     let length = |text: &&str| {
         let (digits, unit) = split(text);
         let one = Number::parse(&format!("1 {unit}"), Quantity::Length, reading);
@@ -347,10 +342,8 @@ pub(super) fn typed(
         let in_degrees = unit == "deg" || unit.is_empty() && reading.degrees;
         last_digit(digits) * if of == Of::Angles && in_degrees { 1_f64.to_radians() } else { 1.0 }
     };
-        let units = [
-        lengths.iter().map(length).fold(COARSEST, f64::min),
-        orientation.iter().map(angle).fold(COARSEST, f64::min),
-    ];
+    let units =
+        [lengths.iter().map(length).fold(COARSEST, f64::min), orientation.iter().map(angle).fold(COARSEST, f64::min)];
     let of_texts = |unit: f64, texts: &[&str]| rounding(unit, texts.iter().map(|text| split(text).0));
     Typed::new(units, [of_texts(units[0], lengths), of_texts(units[1], orientation)], is_quaternion)
 }
@@ -453,6 +446,24 @@ pub fn typed_pose(text: &str, option: &str, design: &Design, reading: &Reading) 
 mod tests {
     use super::*;
     use crate::catalogue::{Any, Options, builtin_any};
+
+    #[test]
+    fn whole_numbers_and_expressions_are_not_rounded() {
+        let Any::Entry(entry) = builtin_any("arm/puma560", &Options::default()).unwrap() else { panic!() };
+        let header = "m00,m01,m02,m03_mm,m10,m11,m12,m13_mm,m20,m21,m22,m23_mm";
+        let reader = PoseRows::of(header, 1, "rows", &entry.design, &Reading::default()).unwrap().0;
+        for (row, length, angle) in [
+            ("1,0,0,300,0,1,0,250,0,0,1,100", 0.0, 0.0),
+            ("1.0,0.0,0.0,300.0,0.0,1.0,0.0,250,0,0,1,100", 0.0, 0.0),
+            ("1,0,0,300.25,0,1,0,250,0,0,1,100", 1e-5, 0.0),
+            ("0.6,-0.8,0,300,0.8,0.6,0,1/3,0,0,1,100", 0.0, 1e-3),
+            ("1.0000,0,0,300,0,1,0,250,0,0,1,1e2", 1e-3, 1e-4),
+        ] {
+            let rounding = reader.case(row, 2).unwrap().rounding.unwrap();
+            let is_near = |one: f64, other: f64| (one - other).abs() <= 1e-12 * other;
+            assert!(is_near(rounding.length, length) && is_near(rounding.angle, angle), "{row}: {rounding:?}");
+        }
+    }
 
     #[test]
     fn objects_are_the_poses_of_tables() {

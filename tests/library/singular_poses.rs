@@ -71,19 +71,20 @@ fn self_motions_of_robots_are_proved_by_the_axes_that_coincide() {
     }
 }
 
-/// Solves a robot at the pose that joint values reach, typed with six digits, within as many units of the last one.
-fn solved_as_typed(name: &str, planted: &[f64], units: f64) -> Solution {
+/// Solves a robot at the pose that joint values reach, typed with so many digits, within a tolerance if one is asked for.
+fn solved_as_typed(name: &str, planted: &[f64], digits: i32, tolerance: Option<Tolerance>) -> Solution {
+    let entry = builtin(name, &Options::default()).unwrap();
     let rows = Arm::robot(name).unwrap().fk(planted).unwrap();
+    let parts = 10_f64.powi(digits);
     let typed: [[Number; 4]; 4] = std::array::from_fn(|i| {
         std::array::from_fn(|j| match rows.get(i) {
-            Some(row) => Number::from_f64((row[j] * 1e6).round() / 1e6),
+            Some(row) => Number::from_f64((row[j] * parts).round() / parts),
             None => Number::from_f64(f64::from(u8::from(i == j))),
         })
     });
-    let case = Case::at(Placement::from_matrix(&typed).unwrap().0, 1);
-    let entry = builtin(name, &Options::default()).unwrap();
-    let tolerance = Tolerance { length: units * 1e-6, angle: units * 1e-6 };
-    let mechanism = Mechanism::prepare(&entry).unwrap().with_tolerance(Some(tolerance));
+    let unit = Tolerance { length: 1.0 / parts, angle: 1.0 / parts };
+    let case = Case { rounding: Some(unit), ..Case::at(Placement::from_matrix(&typed).unwrap().0, 1) };
+    let mechanism = Mechanism::prepare(&entry).unwrap().with_tolerance(tolerance);
     mechanism.solve(&case, Roots::Real, &mut Workspace::default(), &mut Assembly::default()).unwrap()
 }
 
@@ -96,11 +97,80 @@ fn self_motions_that_six_digits_dissolve_are_near() {
     for (name, elbow, moving) in stretched {
         for (joint, third) in [(0.3, 0.9), (0.5, elbow), (-1.1, elbow), (0.9, elbow), (-0.2, elbow)] {
             let planted = [joint, 0.4 - joint, third, 0.3 + joint, 0.0, -0.7];
-            let answer = solved_as_typed(name, &planted, 10.0);
+            let tolerance = Tolerance { length: 1e-5, angle: 1e-5 };
+            let answer = solved_as_typed(name, &planted, 6, Some(tolerance));
             let holds = is_on_family(&answer, &planted, moving);
             assert!(answer.verdict.status == Status::Complete && holds, "{name} {planted:?}: {:?}", answer.verdict);
             assert!(answer.near() > 0 && answer.families.iter().all(|family| family.distance > 0.0), "{planted:?}");
         }
+    }
+}
+
+#[test]
+fn a_pose_that_typing_put_beyond_reach_is_not_denied() {
+    // The elbow is stretched and the wrist in line: half of all poses beside the one that is reached are beyond reach.
+    let elbow = -(302.0_f64.atan2(70.0));
+    let mut near = 0;
+    for digits in [3, 4, 6] {
+        for joint in [0.5, -1.1, 0.9, -0.2] {
+            let planted = [joint, 0.4 - joint, elbow, 0.3 + joint, 0.0, -0.7];
+            let answer = solved_as_typed("irb120", &planted, digits, None);
+            let verdict = &answer.verdict;
+            assert_ne!(verdict.status, Status::Unreachable, "{digits} digits, {planted:?}: {}", verdict.reason);
+            near += usize::from(answer.near() > 0);
+            // What is listed misses the pose by no more than typing did.
+            let mut errors = answer.modes.iter().filter_map(|mode| mode.error);
+            assert!(errors.all(|error| error.largest() <= 10_f64.powi(-digits)), "{planted:?}");
+        }
+    }
+    assert!(near > 3, "{near} have something near");
+}
+
+#[test]
+fn a_typed_pose_far_beyond_reach_is_denied() {
+    for (name, position) in
+        [("ur5e", [1.2, 0.3, 0.4]), ("irb120", [0.7, -0.2, 0.5]), ("arm/jaco_j2n6", [0.2, 0.9, 0.8])]
+    {
+        let entry = builtin(name, &Options::default()).unwrap();
+        let typed: [[Number; 4]; 4] = std::array::from_fn(|i| {
+            std::array::from_fn(|j| {
+                Number::from_f64(if j == 3 && i < 3 { position[i] } else { f64::from(u8::from(i == j)) })
+            })
+        });
+        let rounding = Some(Tolerance { length: 1e-3, angle: 1e-3 });
+        let case = Case { rounding, ..Case::at(Placement::from_matrix(&typed).unwrap().0, 1) };
+        let mechanism = Mechanism::prepare(&entry).unwrap();
+        let answer = mechanism.solve(&case, Roots::Real, &mut Workspace::default(), &mut Assembly::default()).unwrap();
+        let verdict = &answer.verdict;
+        assert_eq!((verdict.status, verdict.proof), (Status::Unreachable, Proof::Proved), "{name}: {}", verdict.reason);
+    }
+}
+
+#[test]
+fn a_double_solution_that_nine_digits_split_is_near() {
+    // Other solutions are real, and f64 does not find the complex pair beside the planted one.
+    for planted in [
+        [
+            -0.268_702_221_527_804_43,
+            1.983_677_775_017_676,
+            1.188_825_898_165_347_2,
+            -0.653_607_238_733_098_2,
+            0.604_580_576_038_177,
+            1.832_502_283_124_045,
+        ],
+        [
+            -2.785_201_080_656_707,
+            -1.490_483_835_016_368_3,
+            2.228_332_341_170_421_7,
+            2.730_688_236_405_785_4,
+            -0.018_439_699_051_599_17,
+            -0.389_052_630_263_251_4,
+        ],
+    ] {
+        let answer = solved_as_typed("arm/jaco_j2n6", &planted, 9, None);
+        let is_planted = |q: &[f64]| apart(q, &planted) < 1e-3;
+        let is_found = answer.modes.iter().any(|mode| is_planted(&mode.q.iter().map(|z| z.re).collect::<Vec<_>>()));
+        assert!(is_found && answer.near() > 0, "{}", answer.verdict.reason);
     }
 }
 
