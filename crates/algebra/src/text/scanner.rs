@@ -4,16 +4,17 @@ use super::fault::{Fault, Place, shortened};
 use crate::error::Error;
 use crate::int::Int;
 use crate::ring::Ring;
-use rug::{Integer, Rational, ops::Pow};
+use rug::{Integer, Rational, integer::Order, ops::Pow};
 
 /// Largest decimal exponent read, as in `1e-400`.
 const LARGEST_EXPONENT: u32 = 400;
 
-/// The digits that fit a machine word, and the most that are put together word by word, which is faster than general conversion.
+/// The digits that fit a machine word, and the most that are put together piece by piece, which is faster than general conversion.
 pub(super) const WORD_DIGITS: usize = 18;
-const FEW_DIGITS: usize = 200;
-/// `10^WORD_DIGITS`
-const TEN_TO_WORD_DIGITS: u64 = 1_000_000_000_000_000_000;
+const FEW_DIGITS: usize = 1200;
+/// The digits of a piece, and what it multiplies the digits before it by.
+const PIECE: usize = 16;
+const TEN_TO_PIECE: u64 = 10_000_000_000_000_000;
 
 /// A text and how far it is read.
 #[derive(Clone, Copy)]
@@ -171,24 +172,85 @@ impl<'t> Scanner<'t> {
     }
 }
 
+/// Returns the eight bytes of a text from a place on, the first one lowest; zeros beyond its end.
+#[inline(always)]
+pub(super) fn eight(bytes: &[u8], at: usize) -> u64 {
+    if let Some(eight) = bytes.get(at..at + 8) {
+        return eight.try_into().map_or(0, u64::from_le_bytes);
+    }
+    let rest = bytes.get(at..).unwrap_or(&[]);
+    rest.iter().rev().fold(0, |word, byte| word << 8 | u64::from(*byte))
+}
+
+/// Returns how many of these eight bytes are digits before the first that is none, and the value of those digits, all at once: neighbours are
+/// joined to numbers of two digits, those to numbers of four, and of eight.
+#[inline(always)]
+pub(super) const fn leading_digits(eight: u64) -> (usize, u64) {
+    let x = eight ^ 0x3030_3030_3030_3030;
+    // The highest bit of each byte above 9; wrong only behind the first of them.
+    let others = (x.wrapping_add(0x7676_7676_7676_7676) | x) & 0x8080_8080_8080_8080;
+    let count = others.trailing_zeros() / 8;
+    if count == 0 {
+        return (0, 0);
+    }
+    let x = x << (64 - 8 * count);
+    let x = (x.wrapping_mul(10).wrapping_add(x >> 8)) & 0x00ff_00ff_00ff_00ff;
+    let x = (x.wrapping_mul(100).wrapping_add(x >> 16)) & 0x0000_ffff_0000_ffff;
+    let x = (x.wrapping_mul(10_000).wrapping_add(x >> 32)) & 0xffff_ffff;
+    (count as usize, x)
+}
+
+/// Returns the value of up to [`WORD_DIGITS`] decimal digits.
+#[inline(always)]
+fn word(digits: &[u8]) -> u64 {
+    digits.iter().fold(0, |value, digit| value * 10 + u64::from(digit - b'0'))
+}
+
+/// Returns the value of [`PIECE`] decimal digits.
+#[inline(always)]
+fn piece(digits: &[u8]) -> u64 {
+    leading_digits(eight(digits, 0)).1 * 100_000_000 + leading_digits(eight(digits, 8)).1
+}
+
 /// Returns the value of decimal digits.
 #[inline]
 pub(super) fn integer(digits: &str) -> Int {
-    let word = |digits: &str| digits.bytes().fold(0, |value, digit| value * 10 + i64::from(digit - b'0'));
-    if digits.len() <= WORD_DIGITS {
-        return Int::from(word(digits));
+    let bytes = digits.as_bytes();
+    if bytes.len() <= WORD_DIGITS {
+        return Int::from(word(bytes).cast_signed());
     }
-    if digits.len() > FEW_DIGITS {
+    if bytes.len() > FEW_DIGITS {
         return Int::from(Integer::parse(digits).map(Integer::from).unwrap_or_default());
     }
-    let mut value = Integer::with_capacity(4 * digits.len());
-    let (first, rest) = digits.split_at(digits.len() % WORD_DIGITS);
-    value += word(first);
-    for chunk in (0..rest.len()).step_by(WORD_DIGITS) {
-        value *= TEN_TO_WORD_DIGITS;
-        value += word(&rest[chunk..chunk + WORD_DIGITS]);
+    long_integer(bytes)
+}
+
+/// Returns the value of more decimal digits than a word has.
+#[expect(clippy::cast_possible_truncation, reason = "limbs are the halves of two words")]
+fn long_integer(digits: &[u8]) -> Int {
+    // A limb has more than 19 digits; numbers of up to eight limbs need no memory for it.
+    let (mut few, mut many) = ([0; 8], Vec::new());
+    let limbs = if digits.len() <= 19 * few.len() {
+        &mut few[..]
+    } else {
+        many.resize(digits.len() / 19 + 2, 0);
+        &mut many[..]
+    };
+    let (first, rest) = digits.split_at(digits.len() % PIECE);
+    let mut used = 1;
+    limbs[0] = word(first);
+    for digits in rest.chunks_exact(PIECE) {
+        let mut carry = piece(digits);
+        for limb in &mut limbs[..used] {
+            let product = u128::from(*limb) * u128::from(TEN_TO_PIECE) + u128::from(carry);
+            (*limb, carry) = (product as u64, (product >> 64) as u64);
+        }
+        if carry > 0 {
+            limbs[used] = carry;
+            used += 1;
+        }
     }
-    Int::from(value)
+    Int::from(Integer::from_digits(&limbs[..used], Order::Lsf))
 }
 
 /// Reads a number in digits, optionally with a sign, a point, a power of ten, and a divisor: `-22/7`, `0.1`, `1e-3`.
