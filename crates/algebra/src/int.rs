@@ -3,7 +3,7 @@
 use super::modp::Modulus;
 use super::ring::{Domain, Ring};
 use rug::{Complete, Integer, Rational};
-use std::{cmp::Ordering, fmt};
+use std::{borrow::Cow, cmp::Ordering, fmt};
 
 /// An integer of any size, without allocation while it fits an i64.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -251,8 +251,19 @@ impl Ring for Int {
     fn from_wide(n: i128) -> Self {
         Self::from(n)
     }
-    fn to_large(&self) -> Option<Integer> {
-        Some(self.to_integer())
+    #[inline(always)]
+    fn to_word(&self) -> Option<i64> {
+        self.to_i64()
+    }
+    #[inline(always)]
+    fn from_word(n: i64) -> Self {
+        Self::from(n)
+    }
+    fn to_large(&self) -> Option<Cow<'_, Integer>> {
+        Some(match &self.0 {
+            Repr::Small(n) => Cow::Owned(Integer::from(*n)),
+            Repr::Large(n) => Cow::Borrowed(n),
+        })
     }
     fn from_large(n: Integer) -> Self {
         Self::from(n)
@@ -288,6 +299,11 @@ impl Domain for Int {
             // i64::MIN by 2^63 is the one quotient of a small number by a large one.
             (Repr::Small(a), Repr::Large(b)) => (*b == -i128::from(*a)).then(|| Self::from(-1_i64)),
             (Repr::Large(a), Repr::Small(b)) => {
+                // Short divisors need no long number.
+                if let Ok(word) = u32::try_from(b.unsigned_abs()) {
+                    let quotient = a.is_divisible_u(word).then(|| Integer::from(a.div_exact_u_ref(word)))?;
+                    return Some(Self::from(if *b < 0 { -quotient } else { quotient }));
+                }
                 let (quotient, rest) = a.div_rem_ref(&Integer::from(*b)).complete();
                 rest.is_zero().then(|| Self::from(quotient))
             }
@@ -302,6 +318,19 @@ impl Domain for Int {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn exact_quotients_by_words_are_those_of_long_numbers() {
+        let n: Integer = (Integer::from(3) << 200) * 105;
+        for b in [1, -1, 2, -7, 11, 15, -105, i64::from(u32::MAX), 1 << 40, -(1 << 62), i64::MIN] {
+            for n in [&n, &-n.clone()] {
+                let (quotient, rest) = n.clone().div_rem(Integer::from(b));
+                let expected = (rest == 0).then(|| Int::from(quotient));
+                assert_eq!(Int::from(n.clone()).checked_div_exact(&Int::from(b)), expected);
+            }
+        }
+        assert_eq!(Int::from(n).checked_div_exact(&Int::zero()), None);
+    }
 
     #[test]
     fn both_ways_to_divide_by_a_word_agree() {

@@ -53,3 +53,4 @@ mod triangular;
 pub mod trigonometric;
 pub mod univariate;
 mod value;
+mod wrapping;

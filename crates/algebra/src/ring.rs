@@ -7,6 +7,7 @@ use super::enclosure::Enclosure;
 use super::number::{Angle, HalfTangent};
 use num_complex::Complex;
 use rug::{Integer, Rational};
+use std::borrow::Cow;
 use std::fmt::Debug;
 
 /// A commutative ring with one, into which the rationals (almost) map.
@@ -65,8 +66,21 @@ pub trait Ring: Clone + PartialEq + Debug {
         Self::from_rational(&Rational::from(n)).expect("integers map into every ring")
     }
 
+    /// Returns the integer that an element of a ring of integers is, if it fits a word. `None` in all other rings.
+    #[inline]
+    fn to_word(&self) -> Option<i64> {
+        self.to_wide().and_then(|n| i64::try_from(n).ok())
+    }
+
+    /// Returns the image of a word.
+    #[must_use]
+    #[inline]
+    fn from_word(n: i64) -> Self {
+        Self::from_wide(n.into())
+    }
+
     /// Returns the integer that an element of a ring of integers is, of any size. `None` in all other rings.
-    fn to_large(&self) -> Option<Integer> {
+    fn to_large(&self) -> Option<Cow<'_, Integer>> {
         None
     }
 

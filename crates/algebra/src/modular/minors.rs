@@ -1,15 +1,16 @@
 //! Determinants of small matrices of polynomials in one variable by their minors, in machine words.
 //!
-//! The coefficients are computed modulo `2^64` or `2^128`, where no sum overflows whatever the minors are. A bound on the
+//! The coefficients are computed modulo `2^64`, `2^128` or a higher power of it, where no sum overflows whatever the minors are. A bound on the
 //! coefficients of the determinant, below half of that, says that they are the residues of least absolute value.
 
 use crate::int::Int;
+use crate::wrapping::{Wide, Wrapping};
 
 /// The most rows: larger matrices have too many minors.
 const MOST_ROWS: usize = 10;
-/// The nanoseconds for a product of two coefficients with words of 64 and of 128 bits, for a product of two polynomials, and for the
+/// The nanoseconds for a product of two coefficients with words of 64, 128, 256 and 512 bits, for a product of two polynomials, and for the
 /// rest: measured on a processor of 3 GHz.
-const TERM: [f64; 2] = [1.0, 1.8];
+const TERM: [f64; 4] = [1.0, 1.8, 7.0, 28.0];
 const PRODUCT: f64 = 10.0;
 const REST: f64 = 200.0;
 
@@ -21,35 +22,6 @@ pub(super) struct Minors {
     /// The highest degree in each row.
     degrees: Vec<usize>,
 }
-
-/// Integers modulo a power of two, of which those of least absolute value are the elements.
-trait Residue: Copy {
-    const ZERO: Self;
-    fn from_word(word: i64) -> Self;
-    fn negative(self) -> Self;
-    fn add_product(&mut self, a: Self, b: Self);
-}
-
-macro_rules! residue {
-    ($($word:ty)*) => {$(
-        impl Residue for $word {
-            const ZERO: Self = 0;
-            #[inline(always)]
-            fn from_word(word: i64) -> Self {
-                word.into()
-            }
-            #[inline(always)]
-            fn negative(self) -> Self {
-                self.wrapping_neg()
-            }
-            #[inline(always)]
-            fn add_product(&mut self, a: Self, b: Self) {
-                *self = self.wrapping_add(a.wrapping_mul(b));
-            }
-        }
-    )*};
-}
-residue!(i64 i128);
 
 impl Minors {
     /// Takes the entries, row by row; `None` if the matrix is not small or a coefficient does not fit a word.
@@ -78,10 +50,16 @@ impl Minors {
     pub(super) fn determinant(&self, bits: f64, limit: f64) -> Option<Vec<Int>> {
         // Half a bit less than a word without its sign, for the rounding of logarithms.
         match bits {
-            ..62.5 if self.cost(TERM[0]) < limit => Some(self.expand::<i64>().into_iter().map(Int::from).collect()),
-            ..126.5 if self.cost(TERM[1]) < limit => Some(self.expand::<i128>().into_iter().map(Int::from).collect()),
+            ..62.5 if self.cost(TERM[0]) < limit => Some(self.coefficients::<i64>()),
+            ..126.5 if self.cost(TERM[1]) < limit => Some(self.coefficients::<i128>()),
+            ..254.5 if self.cost(TERM[2]) < limit => Some(self.coefficients::<Wide<4>>()),
+            ..510.5 if self.cost(TERM[3]) < limit => Some(self.coefficients::<Wide<8>>()),
             _ => None,
         }
+    }
+
+    fn coefficients<R: Wrapping>(&self) -> Vec<Int> {
+        self.expand::<R>().into_iter().map(R::to_ring).collect()
     }
 
     /// Returns the nanoseconds that the expansion is expected to take.
@@ -97,7 +75,7 @@ impl Minors {
 
     /// Expands along the rows from the last one up; at each row the minors of the rows so far are kept, one for each set of as many
     /// columns.
-    fn expand<R: Residue>(&self) -> Vec<R> {
+    fn expand<R: Wrapping>(&self) -> Vec<R> {
         let sets = 1_usize << self.size;
         // The number of each set among those of its size.
         let (mut numbers, mut counts) = (vec![0; sets], vec![0; self.size + 1]);
@@ -106,7 +84,7 @@ impl Minors {
             *number = *count;
             *count += 1;
         }
-        let (mut minors, mut length) = (vec![R::from_word(1)], 1);
+        let (mut minors, mut length) = (vec![R::from_wide(1)], 1);
         for (done, row) in self.entries.rchunks_exact(self.size).enumerate() {
             let longer = length + self.degrees[self.size - 1 - done];
             let mut next = vec![R::ZERO; counts[done + 1] * longer];
@@ -118,7 +96,7 @@ impl Minors {
                     rest &= rest - 1;
                     let minor = &minors[numbers[set ^ 1 << column] * length..][..length];
                     for (k, &c) in row[column].iter().enumerate() {
-                        let c = if odd { R::from_word(c).negative() } else { R::from_word(c) };
+                        let c = R::from_wide(if odd { -i128::from(c) } else { c.into() });
                         for (sum, &m) in sums[k..].iter_mut().zip(minor) {
                             sum.add_product(c, m);
                         }
@@ -141,11 +119,13 @@ mod tests {
     #[test]
     fn the_longest_coefficients_fit_their_words() {
         let signs = [1, 1, 1, 1, 1, -1, 1, -1, 1, 1, -1, -1, 1, -1, -1, 1];
-        let (mut short, mut long) = (0, 0);
-        for shift in 0..40_u32 {
-            let c = (1_i64 << shift) + i64::from(shift);
+        // How often each length was met.
+        let mut found_in = [0; 4];
+        for shift in 0..63_u32 {
+            let c = if shift < 62 { (1_i64 << shift) + i64::from(shift) } else { i64::MAX };
             let entries: Vec<Vec<Int>> = signs.iter().map(|&sign| vec![Int::from(c * sign), Int::zero()]).collect();
-            let square = Int::from(2 * c).mul(&Int::from(2 * c));
+            let square = Int::from(2_i64).mul(&Int::from(c));
+            let square = square.mul(&square);
             let expected = square.mul(&square);
             let minors = Minors::new(4, &entries).unwrap();
             let bits = expected.to_f64().log2() + 1e-6;
@@ -153,12 +133,13 @@ mod tests {
             assert!(minors.determinant(bits, 1.0).is_none());
             if let Some(found) = minors.determinant(bits, f64::INFINITY) {
                 assert_eq!(found, [expected]);
-                *(if bits < 62.5 { &mut short } else { &mut long }) += 1;
+                found_in[[62.5, 126.5, 254.5, 510.5].iter().position(|most| bits < *most).unwrap()] += 1;
             } else {
-                assert!(bits > 126.0);
+                assert!(bits > 254.0);
             }
+            assert_eq!(minors.coefficients::<Wide<8>>(), minors.determinant(500.0, f64::INFINITY).unwrap());
         }
-        assert!(short > 10 && long > 10);
+        assert!(found_in[..3].iter().all(|count| *count > 10));
     }
 
     #[test]

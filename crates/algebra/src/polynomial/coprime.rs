@@ -6,7 +6,7 @@
 
 use super::Polynomial;
 use super::kronecker::{Kronecker, Numbers};
-use super::product::to_words;
+use super::product::{to_large, to_words};
 use crate::int::Int;
 use crate::modp::{Modulus, PRIME_62};
 use crate::residue_polynomial::{Residues, common_divisor, trim};
@@ -115,9 +115,15 @@ impl Polynomial<Int> {
         let (left, right) = (self.packed_as(packing), other.packed_as(packing));
         let degrees: Vec<u32> =
             (0..packing.variables()).map(|variable| self.degree(variable).max(other.degree(variable))).collect();
-        let (a, b) = (to_words(&self.coefficients)?, to_words(&other.coefficients)?);
-        let (a, b) = (Numbers::Words(&a), Numbers::Words(&b));
-        let width = a.bits().min(b.bits()) + MARGIN;
+        let words = to_words(&self.coefficients).zip(to_words(&other.coefficients));
+        let large =
+            if words.is_none() { to_large(&self.coefficients).zip(to_large(&other.coefficients)) } else { None };
+        let (a, b) = match (&words, &large) {
+            (Some((a, b)), _) => (Numbers::Words(a), Numbers::Words(b)),
+            (None, large) => large.as_ref().map(|(a, b)| (Numbers::Large(a), Numbers::Large(b)))?,
+        };
+        // No slot may be too short for the longer coefficients.
+        let width = (a.bits().min(b.bits()) + MARGIN).max(a.bits().max(b.bits()) + 2);
         let substitution = Kronecker::with_width(packing, &degrees, width, &left, &right)?;
         if substitution.limbs() > MOST_LIMBS {
             return None;

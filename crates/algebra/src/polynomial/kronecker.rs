@@ -3,13 +3,7 @@
 //! Kronecker's substitution: with `d_v` the degree of the product in the variable v, `x_v` becomes `X^(s_v)`, where `s_v` is
 //! the product of the `d_w + 1` over the later variables w, and X becomes `2^B`. Different monomials of the product, the
 //! exponent of each `x_v` being at most `d_v`, have different powers of X, its slots; they follow one another like the
-//! monomials. With B large enough the coefficients are read off the product of two integers, which GMP computes.
-//!
-//! # Why the coefficients are right
-//! Let all coefficients of the product be at most `2^(B-2)` in absolute value. What lies below slot i, the sum of the
-//! `c_j 2^(Bj)` over j < i, is then below `2^(Bi-1)` in absolute value, and therefore the bit below slot i, in two's
-//! complement, tells whether it is negative. If so, slot i holds `c_i - 1` modulo `2^B`, else `c_i`, and both lie from
-//! `-2^(B-1)` to `2^(B-1) - 1`, which determines `c_i`.
+//! monomials. With B large enough the coefficients are read off the product of two integers, which GMP computes (see `slots`).
 //!
 //! The greatest common divisor of two such integers proposes one of the polynomials; what it is worth is for others to
 //! prove.
@@ -17,12 +11,12 @@
 //! # Source
 //! Kronecker 1882, Grundzüge einer arithmetischen Theorie der algebraischen Größen, § 4.
 
+use super::slots::{LIMB, Reader, Writer};
 use crate::monomial::Packing;
 use crate::ring::Ring;
 use rug::{Integer, integer::Order};
+use std::borrow::Cow;
 
-/// Bits of a limb.
-const LIMB: usize = 64;
 /// The most slots: beyond it no dense product is worth its memory.
 const MOST_SLOTS: usize = 1 << 24;
 /// The most slots for which room is made at once.
@@ -46,13 +40,13 @@ const PRODUCTS: [(f64, f64); 12] = [
 const SLOT: f64 = 3.0;
 const TERM: f64 = 5.0;
 const COPY: f64 = 1.5;
-const REST: f64 = 1e3;
+const REST: f64 = 4e2;
 
 /// Coefficients that are integers.
 #[derive(Clone, Copy)]
 pub(super) enum Numbers<'a> {
     Words(&'a [i64]),
-    Large(&'a [Integer]),
+    Large(&'a [Cow<'a, Integer>]),
 }
 
 impl Numbers<'_> {
@@ -60,7 +54,7 @@ impl Numbers<'_> {
     pub(super) fn bits(&self) -> usize {
         match self {
             Self::Words(words) => length(words.iter().map(|n| n.unsigned_abs()).max().unwrap_or(0)),
-            Self::Large(large) => large.iter().map(Integer::significant_bits).max().unwrap_or(0) as usize,
+            Self::Large(large) => large.iter().map(|n| n.significant_bits()).max().unwrap_or(0) as usize,
         }
     }
 
@@ -71,10 +65,7 @@ impl Numbers<'_> {
                 let sum: u128 = words.iter().map(|n| u128::from(n.unsigned_abs())).sum();
                 (u128::BITS - sum.leading_zeros()) as usize
             }
-            Self::Large(large) => {
-                let sum = large.iter().fold(Integer::new(), |sum, n| sum + &*n.as_abs());
-                sum.significant_bits() as usize
-            }
+            Self::Large(large) => self.bits() + length(large.len() as u64),
         }
     }
 }
@@ -148,8 +139,20 @@ impl<'d> Kronecker<'d> {
         long / short * balanced(short) + COPY * 2.0 * (a + b) + SLOT * slots + TERM * self.terms as f64 + REST
     }
 
+    /// Returns the powers of X that monomials become, the lowest first.
+    fn slots<'a>(&'a self, monomials: &'a [u64]) -> impl Iterator<Item = usize> + 'a {
+        // In one word fields are shifted out.
+        let fields =
+            (0..self.strides.len()).map(|variable| self.packing.place(variable).1).zip(self.strides.iter().copied());
+        let fields: Vec<(u32, usize)> = fields.collect();
+        let words = self.packing.words();
+        monomials.rchunks_exact(words).map(move |monomial| match monomial {
+            [word] => fields.iter().map(|&(shift, stride)| self.packing.field(*word, shift) as usize * stride).sum(),
+            _ => self.slot(monomial),
+        })
+    }
+
     /// Returns the power of X that a monomial becomes.
-    #[inline(always)]
     fn slot(&self, monomial: &[u64]) -> usize {
         let term = |(variable, &stride): (usize, &usize)| self.packing.exponent(monomial, variable) as usize * stride;
         self.strides.iter().enumerate().map(term).sum()
@@ -161,10 +164,10 @@ impl<'d> Kronecker<'d> {
         (left, a): (&[u64], &Numbers),
         (right, b): (&[u64], &Numbers),
     ) -> (Vec<u64>, Vec<R>) {
-        let (a, b) = (self.integer(left, a, self.slots.0), self.integer(right, b, self.slots.1));
+        let ((a, s), (b, t)) = (self.integer(left, a, self.slots.0), self.integer(right, b, self.slots.1));
         // Squares are cheaper.
         let product = if a == b { a.square() } else { a * b };
-        self.read(&product, self.slots.0 + self.slots.1 - 1)
+        self.read(&product, self.slots.0 + self.slots.1 - 1, s != t)
     }
 
     /// Returns monomials, decreasing, and coefficients of the greatest common divisor of both values, as if they were those
@@ -174,56 +177,46 @@ impl<'d> Kronecker<'d> {
         (left, a): (&[u64], &Numbers),
         (right, b): (&[u64], &Numbers),
     ) -> (Vec<u64>, Vec<R>) {
-        let divisor = self.integer(left, a, self.slots.0).gcd(&self.integer(right, b, self.slots.1));
-        self.read(&divisor, self.slots.0.min(self.slots.1))
+        let divisor = self.integer(left, a, self.slots.0).0.gcd(&self.integer(right, b, self.slots.1).0);
+        self.read(&divisor, self.slots.0.min(self.slots.1), false)
     }
 
     /// Returns monomials, decreasing, and coefficients of the polynomial that has a value at `X = 2^B` which fits so many
-    /// slots.
-    fn read<R: Ring>(&self, value: &Integer, slots: usize) -> (Vec<u64>, Vec<R>) {
-        let mut digits: Vec<u64> = value.to_digits(Order::Lsf);
-        // Slots that end beyond the highest digit are read too.
-        digits.resize(((slots + 1) * self.width / LIMB + 3).max(digits.len()), 0);
-        let reader = Reader { digits: &digits, width: self.width, negative: value.is_negative() };
+    /// slots and is not negative, or those times -1.
+    fn read<R: Ring>(&self, value: &Integer, slots: usize, negative: bool) -> (Vec<u64>, Vec<R>) {
+        let mut reader = Reader::new(value, self.width, slots, negative);
+        let nonzero = |c: R| (!c.is_zero()).then_some(c);
         match self.width {
-            ..65 => self.collect(slots, |slot| reader.word(slot).map(|n| R::from_wide(n.into()))),
-            65..129 => self.collect(slots, |slot| reader.pair(slot).map(R::from_wide)),
-            _ => self.collect(slots, |slot| reader.large(slot).map(R::from_large)),
+            ..65 => {
+                let words = reader.words(slots);
+                self.collect(slots, |slot| Some(words[slots - 1 - slot]).filter(|n| *n != 0).map(R::from_word))
+            }
+            65..129 => self.collect(slots, |slot| nonzero(R::from_wide(reader.pair(slot)))),
+            _ => self.collect(slots, |slot| nonzero(R::from_large(reader.large(slot)))),
         }
     }
 
-    /// Returns the value of a factor at `X = 2^B`.
-    fn integer(&self, monomials: &[u64], numbers: &Numbers, slots: usize) -> Integer {
-        let count = slots * self.width / LIMB + 2;
-        // The positive and the negative coefficients apart: the slots of either hold plain digits.
-        let mut sides = [vec![0_u64; count], vec![0_u64; count]];
-        let mut put = |monomial: &[u64], negative: bool, digits: &[u64]| {
-            let bit = self.slot(monomial) * self.width;
-            let (first, shift) = (bit / LIMB, bit % LIMB);
-            let side = &mut sides[usize::from(negative)];
-            for (i, digit) in digits.iter().enumerate() {
-                side[first + i] |= digit << shift;
-                if shift > 0 && digit >> (LIMB - shift) != 0 {
-                    side[first + i + 1] |= digit >> (LIMB - shift);
-                }
-            }
-        };
-        let monomials = monomials.chunks_exact(self.packing.words());
+    /// Returns the absolute value of a factor, not zero, at `X = 2^B`, and whether the value is negative.
+    fn integer(&self, monomials: &[u64], numbers: &Numbers, slots: usize) -> (Integer, bool) {
+        let mut writer = Writer::new(self.width, slots);
+        let slots = self.slots(monomials);
+        let negative;
         match numbers {
             Numbers::Words(words) => {
-                monomials.zip(*words).for_each(|(monomial, n)| put(monomial, *n < 0, &[n.unsigned_abs()]));
+                negative = words.first().is_some_and(|n| *n < 0);
+                writer.words(slots.zip(words.iter().rev().copied()), negative);
             }
             Numbers::Large(large) => {
+                negative = large.first().is_some_and(|n| n.is_negative());
                 let mut buffer = Vec::new();
-                for (monomial, n) in monomials.zip(*large) {
+                for (slot, n) in slots.zip(large.iter().rev()) {
                     buffer.resize(n.significant_digits::<u64>(), 0);
                     n.write_digits(&mut buffer, Order::Lsf);
-                    put(monomial, n.is_negative(), &buffer);
+                    writer.large(slot, &buffer, n.is_negative() != negative);
                 }
             }
         }
-        let [plus, minus] = sides.map(|side| Integer::from_digits(&side, Order::Lsf));
-        plus - minus
+        (writer.finish(), negative)
     }
 
     /// Returns the monomials, decreasing, of the slots with a coefficient other than zero, and these coefficients.
@@ -253,9 +246,13 @@ impl<'d> Kronecker<'d> {
             let start = row * (inner as usize + 1);
             for exponent in (0..=inner as usize).rev().filter(|exponent| start + exponent < slots) {
                 if let Some(c) = read(start + exponent) {
-                    let base = monomials.len();
-                    monomials.extend_from_slice(&row_monomial);
-                    monomials[base + word] |= (exponent as u64) << shift;
+                    if let [only] = row_monomial[..] {
+                        monomials.push(only | (exponent as u64) << shift);
+                    } else {
+                        let base = monomials.len();
+                        monomials.extend_from_slice(&row_monomial);
+                        monomials[base + word] |= (exponent as u64) << shift;
+                    }
                     coefficients.push(c);
                 }
             }
@@ -265,7 +262,7 @@ impl<'d> Kronecker<'d> {
 }
 
 /// Returns the nanoseconds for a product of two integers of so many limbs: straight lines between logarithms.
-fn balanced(limbs: f64) -> f64 {
+pub(super) fn balanced(limbs: f64) -> f64 {
     let last = PRODUCTS.len() - 2;
     let piece = PRODUCTS.iter().skip(1).position(|(size, _)| limbs < *size).unwrap_or(last).min(last);
     let [(x0, y0), (x1, y1)] = [PRODUCTS[piece], PRODUCTS[piece + 1]];
@@ -273,69 +270,12 @@ fn balanced(limbs: f64) -> f64 {
     y0 * ((limbs.max(1.0) / x0).ln() * slope).exp()
 }
 
-/// The slots of a product, whose coefficients all change their sign if it is negative.
-struct Reader<'a> {
-    digits: &'a [u64],
-    width: usize,
-    negative: bool,
-}
-
-impl Reader<'_> {
-    /// Returns the bit below a slot, which tells whether what lies below is negative.
-    #[inline(always)]
-    fn borrow(&self, bit: usize) -> u64 {
-        if bit == 0 { 0 } else { self.digits[(bit - 1) / LIMB] >> ((bit - 1) % LIMB) & 1 }
-    }
-
-    /// Returns the 64 bits from a bit on.
-    #[inline(always)]
-    fn digit(&self, bit: usize) -> u64 {
-        let (first, shift) = (bit / LIMB, bit % LIMB);
-        // In two steps, because a shift by 64 is none.
-        self.digits[first] >> shift | (self.digits[first + 1] << 1) << (LIMB - 1 - shift)
-    }
-
-    /// Returns the coefficient of a slot of at most 64 bits, unless it is zero.
-    #[inline(always)]
-    fn word(&self, slot: usize) -> Option<i64> {
-        let bit = slot * self.width;
-        let unused = LIMB - self.width;
-        let n = ((self.digit(bit) << unused).cast_signed() >> unused) + self.borrow(bit).cast_signed();
-        (n != 0).then_some(if self.negative { -n } else { n })
-    }
-
-    /// Returns the coefficient of a slot of 65 to 128 bits, unless it is zero.
-    #[inline(always)]
-    fn pair(&self, slot: usize) -> Option<i128> {
-        let bit = slot * self.width;
-        let unused = 2 * LIMB - self.width;
-        let digits = u128::from(self.digit(bit)) | u128::from(self.digit(bit + LIMB)) << LIMB;
-        let n = ((digits << unused).cast_signed() >> unused) + i128::from(self.borrow(bit));
-        (n != 0).then_some(if self.negative { -n } else { n })
-    }
-
-    /// Returns the coefficient of a slot of any width, unless it is zero.
-    fn large(&self, slot: usize) -> Option<Integer> {
-        let bit = slot * self.width;
-        let count = self.width.div_ceil(LIMB);
-        let mut digits: Vec<u64> = (0..count).map(|i| self.digit(bit + i * LIMB)).collect();
-        let used = self.width - (count - 1) * LIMB;
-        digits[count - 1] &= u64::MAX >> (LIMB - used);
-        let high = digits[count - 1] >> (used - 1) == 1;
-        let mut n = Integer::from_digits(&digits, Order::Lsf);
-        if high {
-            n -= Integer::from(1) << u32::try_from(self.width).expect("slots are shorter than memory");
-        }
-        n += self.borrow(bit);
-        (n != 0).then(|| if self.negative { -n } else { n })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::int::Int;
     use crate::polynomial::Polynomial;
+    use crate::polynomial::product::to_large;
     use crate::ring::Ring;
     use proptest::prelude::*;
 
@@ -346,8 +286,7 @@ mod tests {
         let degrees: Vec<u32> = (0..f.variables().max(g.variables())).map(|v| f.degree(v) + g.degree(v)).collect();
         let packing = Packing::new(degrees.len(), degrees.iter().copied().max().unwrap_or(0));
         let (left, right) = (f.packed_as(packing), g.packed_as(packing));
-        let numbers = |f: &Poly| f.coefficients().iter().map(Int::to_integer).collect::<Vec<_>>();
-        let (a, b) = (numbers(f), numbers(g));
+        let (a, b) = (to_large(f.coefficients()).unwrap(), to_large(g.coefficients()).unwrap());
         let (a, b) = (Numbers::Large(&a), Numbers::Large(&b));
         let substitution = Kronecker::new(packing, &degrees, (&left, &a), (&right, &b)).unwrap();
         let (monomials, coefficients) = substitution.product((&left, &a), (&right, &b));

@@ -608,9 +608,12 @@ impl Cells {
         let mut end = self.stride;
         while end > 0 {
             let start = end.saturating_sub(CHUNK);
-            // Sums of absolute values are found in lanes.
-            let size = |plane: &[f64]| plane[start..end].iter().fold(0.0, |sum, n| sum + n.abs());
-            if self.sums.chunks_exact(self.stride).all(|plane| size(plane) == 0.0) {
+            let is_zero = |plane: &[f64]| match <&[f64; CHUNK]>::try_from(&plane[start..end]) {
+                // All bits but the signs together, which is done in lanes.
+                Ok(chunk) => chunk.iter().fold(0, |or, n| or | n.to_bits()) << 1 == 0,
+                Err(_) => plane[start..end].iter().all(|n| *n == 0.0),
+            };
+            if self.sums.chunks_exact(self.stride).all(is_zero) {
                 end = start;
                 continue;
             }
@@ -680,9 +683,10 @@ mod tests {
     use super::*;
     use crate::int::Int;
     use crate::polynomial::Polynomial;
-    use crate::polynomial::product::{bound, to_words};
+    use crate::polynomial::product::{bound, to_large, to_words};
     use crate::ring::Ring;
     use proptest::prelude::*;
+    use std::borrow::Cow;
 
     type Poly = Polynomial<Int>;
 
@@ -692,8 +696,7 @@ mod tests {
         let packing = Packing::new(degrees.len(), degrees.iter().copied().max().unwrap_or(0));
         let (left, right) = (f.packed_as(packing), g.packed_as(packing));
         let words = to_words(f.coefficients()).zip(to_words(g.coefficients()));
-        let large = |f: &Poly| f.coefficients().iter().map(Int::to_integer).collect::<Vec<_>>();
-        let (a, b) = (large(f), large(g));
+        let (a, b) = (to_large(f.coefficients()).unwrap(), to_large(g.coefficients()).unwrap());
         let limit = words.as_ref().map(|(a, b)| bound(a, b));
         let (a, b) = match &words {
             Some((a, b)) => (Numbers::Words(a), Numbers::Words(b)),
@@ -777,6 +780,9 @@ mod tests {
         assert_eq!((&fast, &plain), (&term_by_term(&f, &f), &term_by_term(&f, &f)));
         let long = x(1).pow(1 << 17).add(&x(0)).add(&Poly::one());
         assert!(by_planes(&long, &long).is_none());
-        assert!(Digits::new(&Numbers::Large(&[Integer::from(1) << 500_u32]), &Numbers::Words(&[1]), None, 1).is_none());
+        assert!(
+            Digits::new(&Numbers::Large(&[Cow::Owned(Integer::from(1) << 500_u32)]), &Numbers::Words(&[1]), None, 1)
+                .is_none()
+        );
     }
 }

@@ -4,15 +4,20 @@ use super::blocks::{self, Accumulator, Blocks, Grid, Triple};
 use super::kronecker::{Kronecker, Numbers};
 use super::limbs::{Factor, Sum};
 use super::planes::{Planes, Sums};
-use super::{Polynomial, Size, scattered, short};
+use super::{Polynomial, Size, line, scattered, short};
 use crate::monomial::Packing;
 use crate::ring::Ring;
 use rug::Integer;
+use std::borrow::Cow;
 
 /// Maximum number of products of terms that are sorted.
 const FEW: usize = 1024;
 /// The number of them from which on they are collected in a box if they fill it.
 const DENSE: usize = 128;
+/// The fewest products of terms that are worth a look at how many of the possible terms there are; and the nanoseconds that one takes where
+/// they are added up one by one.
+const FILLED: usize = 400;
+const PAIR: f64 = 1.2;
 /// Cells of a box: their sums stay in the first-level cache, or nearly so.
 pub(super) const CELLS: usize = 1 << 12;
 /// The most terms of a block, on the average, for which a box is worth nothing.
@@ -25,11 +30,16 @@ const WHOLE: u128 = 1 << 127;
 
 /// Returns the coefficients as machine words, if all are such.
 pub(super) fn to_words<R: Ring>(coefficients: &[R]) -> Option<Vec<i64>> {
-    coefficients.iter().map(|c| i64::try_from(c.to_wide()?).ok()).collect()
+    // With room from the start, which collecting would not make.
+    let mut words = Vec::with_capacity(coefficients.len());
+    for c in coefficients {
+        words.push(c.to_word()?);
+    }
+    Some(words)
 }
 
 /// Returns the coefficients as big integers, if they are integers; those of most rings are not, which the first one tells.
-fn to_large<R: Ring>(coefficients: &[R]) -> Option<Vec<Integer>> {
+pub(super) fn to_large<R: Ring>(coefficients: &[R]) -> Option<Vec<Cow<'_, Integer>>> {
     coefficients.iter().map(Ring::to_large).collect()
 }
 
@@ -52,6 +62,19 @@ pub(super) fn bound(a: &[i64], b: &[i64]) -> u128 {
     };
     let ((sum_a, max_a), (sum_b, max_b)) = (norms(a), norms(b));
     sum_a.saturating_mul(max_b).min(sum_b.saturating_mul(max_a))
+}
+
+/// Returns a bound of the bits of the coefficients of the product, and of all sums on the way there; `None` where they are no integers.
+fn bits_of_product<R: Ring>(a: &[R], b: &[R]) -> Option<u32> {
+    let longest = |coefficients: &[R]| {
+        let bits = |c: &R| match c.to_wide() {
+            Some(n) => Some(u128::BITS - n.unsigned_abs().leading_zeros()),
+            None => Some(c.to_large()?.significant_bits()),
+        };
+        coefficients.iter().try_fold(0, |longest, c| Some(bits(c)?.max(longest)))
+    };
+    let terms = usize::BITS - a.len().min(b.len()).leading_zeros();
+    Some(longest(a)? + longest(b)? + terms)
 }
 
 impl<R: Ring> Polynomial<R> {
@@ -81,6 +104,12 @@ impl<R: Ring> Polynomial<R> {
         if left.len() == 1 {
             return right.shifted(packing, &b, &a, &left.coefficients[0]);
         }
+        if packing.words() == 1
+            && let factors = ((&a[..], &left.coefficients[..]), (&b[..], &right.coefficients[..]))
+            && let Some((monomials, coefficients)) = line::product(packing, factors.0, factors.1)
+        {
+            return Self::from_sorted(packing, monomials, coefficients);
+        }
         if packing.words() == 1 && left.len() == 2 {
             return left.merged_product(right, packing, &a, &b);
         }
@@ -98,10 +127,40 @@ impl<R: Ring> Polynomial<R> {
         if packing.words() != 1 || self.len() * other.len() > short::MOST {
             return None;
         }
-        let (a, b) = to_words(&self.coefficients).zip(to_words(&other.coefficients))?;
         let degrees = || self.degrees_of_product(other, packing);
-        let (monomials, words) = short::product(packing, &degrees, (left, &a), (right, &b))?;
-        Some(Self { packing, monomials, coefficients: words.into_iter().map(|n| R::from_wide(n.into())).collect() })
+        if let Some(product) = self.filled_product(other, packing, left, right) {
+            return Some(product);
+        }
+        if let Some((a, b)) = to_words(&self.coefficients).zip(to_words(&other.coefficients))
+            && let Some((monomials, words)) = short::product(packing, &degrees, (left, &a), (right, &b))
+        {
+            return Some(Self { packing, monomials, coefficients: words.into_iter().map(R::from_word).collect() });
+        }
+        let (left, right) = ((left, &self.coefficients[..]), (right, &other.coefficients[..]));
+        let bits = bits_of_product(left.1, right.1)?;
+        let (monomials, coefficients) = short::wide_product(packing, &degrees, left, right, bits)?;
+        Some(Self { packing, monomials, coefficients })
+    }
+
+    /// Returns the product of few terms that fill most of what their degrees allow, as one product of long integers.
+    fn filled_product(&self, other: &Self, packing: Packing, left: &[u64], right: &[u64]) -> Option<Self> {
+        let pairs = left.len() * right.len();
+        if pairs < FILLED {
+            return None;
+        }
+        let degrees = self.degrees_of_product(other, packing);
+        if degrees.iter().fold(1, |cells: usize, degree| cells.saturating_mul(*degree as usize + 1)) > pairs {
+            return None;
+        }
+        let (a, b) = to_words(&self.coefficients).zip(to_words(&other.coefficients))?;
+        let (a, b) = (Numbers::Words(&a), Numbers::Words(&b));
+        let (left, right) = ((left, &a), (right, &b));
+        let substitution = Kronecker::new(packing, &degrees, left, right)?;
+        if substitution.cost() > PAIR * pairs as f64 {
+            return None;
+        }
+        let (monomials, coefficients) = substitution.product(left, right);
+        Some(Self { packing, monomials, coefficients })
     }
 
     fn degrees_of_product(&self, other: &Self, packing: Packing) -> Vec<u32> {
@@ -205,7 +264,7 @@ impl<R: Ring> Polynomial<R> {
         let pairs = self.len() as f64 * other.len() as f64;
         let large =
             if words.is_none() { to_large(&self.coefficients).zip(to_large(&other.coefficients)) } else { None };
-        let factors = |large: &[Integer]| large.iter().map(Factor::new).collect::<Option<Vec<Factor>>>();
+        let factors = |large: &[Cow<Integer>]| large.iter().map(|n| Factor::new(n)).collect::<Option<Vec<Factor>>>();
         let short = large.as_ref().and_then(|(a, b)| factors(a).zip(factors(b)));
         let numbers = match (&words, &large) {
             (Some((a, b)), _) => Some((Numbers::Words(a), Numbers::Words(b))),
@@ -221,7 +280,7 @@ impl<R: Ring> Polynomial<R> {
             if let Some(planes) = planes.filter(|planes| planes.cost() < limit) {
                 let mut coefficients = Vec::with_capacity(planes.room());
                 let monomials = planes.product(&mut |sums| match sums {
-                    Sums::Words(words) => coefficients.extend(words.iter().map(|n| R::from_wide((*n).into()))),
+                    Sums::Words(words) => coefficients.extend(words.iter().map(|n| R::from_word(*n))),
                     Sums::Wide(n) => coefficients.push(R::from_wide(n)),
                     Sums::Large(n) => coefficients.push(R::from_large(n)),
                 });
@@ -241,14 +300,14 @@ impl<R: Ring> Polynomial<R> {
                 scattered::product(packing, &degrees, (left, a), (right, b))
             };
             if let Some((monomials, words)) = product {
-                let coefficients = words.into_iter().map(|n| R::from_wide(n.into())).collect();
+                let coefficients = words.into_iter().map(R::from_word).collect();
                 return Self { packing, monomials, coefficients };
             }
         }
         let mut coefficients = Vec::new();
         let monomials = match (&words, bound, &short) {
             (Some((a, b)), Some(..HALF), _) => collect(&grid, &degrees, (left, a), (right, b), &mut |n: i64| {
-                coefficients.push(R::from_wide(n.into()));
+                coefficients.push(R::from_word(n));
             }),
             (Some((a, b)), Some(..WHOLE), _) => {
                 collect(&grid, &degrees, (left, a), (right, b), &mut |n: i128| coefficients.push(R::from_wide(n)))
