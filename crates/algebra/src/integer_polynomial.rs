@@ -1,6 +1,8 @@
 //! Common divisors and square-free factors of integer polynomials, by images modulo primes and a proof over the integers.
 
+use super::int::Int;
 use super::modp::{Modulus, PRIME_61, PRIME_62, primes};
+use super::polynomial::Polynomial;
 use super::residue_polynomial::{common_divisor, derivative, reduce, trim};
 use super::ring::Ring;
 use super::univariate::Univariate;
@@ -203,6 +205,9 @@ impl Univariate<Integer> {
     /// Never: there are more primes than can be unlucky.
     #[must_use]
     pub fn gcd(&self, other: &Self) -> Self {
+        if let Some(gcd) = self.divisor_by_value(other) {
+            return gcd;
+        }
         let content = self.content().gcd(&other.content());
         let (f, g) = (self.primitive_part(), other.primitive_part());
         let (Some(f_leading), Some(g_leading)) = (f.coefficients().last(), g.coefficients().last()) else {
@@ -246,6 +251,16 @@ impl Univariate<Integer> {
             }
         }
         unreachable!("only finitely many primes are unlucky")
+    }
+
+    /// Returns the greatest common divisor if it is proved from values at a power of two.
+    fn divisor_by_value(&self, other: &Self) -> Option<Self> {
+        if self.degree()? == 0 || other.degree()? == 0 {
+            return None;
+        }
+        let polynomial = |f: &Self| Some(Polynomial::from_univariate(0, &f.map(|c| Some(Int::from(c.clone())))?));
+        let divisor = polynomial(self)?.divisor_on_line(&polynomial(other)?, true)?;
+        divisor.to_univariate(0)?.map(|c| Some(c.to_integer()))
     }
 
     /// Returns whether the image modulo one prime proves that there is no multiple factor; `false` proves nothing.

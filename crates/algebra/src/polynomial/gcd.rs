@@ -22,10 +22,16 @@ impl Polynomial<Int> {
             let sum = self.add(other);
             return sum.primitive_part().scale(&sum.content());
         }
+        if let Some(gcd) = self.divisor_on_line(other, false) {
+            return gcd;
+        }
         let content = self.content().gcd(&other.content());
         let bounds = self.divisor_degrees(other);
         if bounds.as_ref().is_some_and(|bounds| bounds.iter().all(|bound| *bound == 0)) {
             return Self::constant(content);
+        }
+        if let Some(gcd) = self.divisor_on_line(other, true) {
+            return gcd;
         }
         let (a, b) = (self.monomial_content(), other.monomial_content());
         // The bounds hold for what is left of both as well, if they have no monomials.

@@ -105,8 +105,8 @@ impl Univariate<Integer> {
     #[must_use]
     pub fn real_roots(&self) -> Vec<RealRoot> {
         assert!(self.degree().is_some(), "every number is a root of zero");
-        let integer = Integer::clone;
-        roots_by_floats(self.coefficients(), rough::leading, integer).unwrap_or_else(|| roots(self.coefficients()))
+        let by_floats = roots_by_floats(self.coefficients(), rough::leading, Integer::clone);
+        by_floats.unwrap_or_else(|| roots_of_multiplicity(self.coefficients()))
     }
 }
 
@@ -120,7 +120,8 @@ impl Univariate<Int> {
         assert!(self.degree().is_some(), "every number is a root of zero");
         let lead = |c: &Int| c.to_i64().map_or_else(|| rough::leading(&c.to_integer()), short::lead_of_word);
         let integers = || self.coefficients().iter().map(Int::to_integer).collect::<Vec<_>>();
-        roots_by_floats(self.coefficients(), lead, Int::to_integer).unwrap_or_else(|| roots(&integers()))
+        roots_by_floats(self.coefficients(), lead, Int::to_integer)
+            .unwrap_or_else(|| roots_of_multiplicity(&integers()))
     }
 }
 
@@ -129,15 +130,44 @@ fn zeros<C: Ring>(coefficients: &[C]) -> usize {
     coefficients.iter().take_while(|c| c.is_zero()).count()
 }
 
-/// Returns the real roots of a polynomial, not zero, by its square-free factors.
-fn roots(coefficients: &[Integer]) -> Vec<RealRoot> {
+/// Returns the square-free factors of a polynomial, not zero, and their multiplicities.
+fn factors(coefficients: &[Integer]) -> Vec<(Univariate<Integer>, usize)> {
     let zeros = zeros(coefficients);
     let rest = Univariate::new(coefficients[zeros..].to_vec());
     let mut factors = rest.square_free_decomposition();
     if zeros > 0 {
         factors.insert(0, (Univariate::x(), zeros));
     }
-    roots_of_factors(&factors)
+    factors
+}
+
+/// Returns the real roots of a polynomial, not zero, by its square-free factors, without f64 alone.
+#[cfg(test)]
+fn roots(coefficients: &[Integer]) -> Vec<RealRoot> {
+    roots_of_factors(&factors(coefficients))
+}
+
+/// Returns the real roots of a polynomial, not zero, where f64 alone did not settle them: mostly because some are multiple, and then those of
+/// the square-free factors are often settled by it.
+fn roots_of_multiplicity(coefficients: &[Integer]) -> Vec<RealRoot> {
+    let factors = factors(coefficients);
+    let by_floats = |(factor, multiplicity): &(Univariate<Integer>, usize)| {
+        if *factor == Univariate::x() {
+            return Some(vec![zero(*multiplicity)]);
+        }
+        let mut roots = roots_by_floats(factor.coefficients(), rough::leading, Integer::clone)?;
+        roots.iter_mut().for_each(|root| root.multiplicity = *multiplicity);
+        Some(roots)
+    };
+    if factors.iter().all(|(_, multiplicity)| *multiplicity == 1) {
+        return roots_of_factors(&factors);
+    }
+    let mut roots = Vec::new();
+    for factor in &factors {
+        roots.extend(by_floats(factor).unwrap_or_else(|| roots_of_factors(std::slice::from_ref(factor))));
+    }
+    separate(&mut roots);
+    roots
 }
 
 /// Returns the same if f64 settles where they are and that all but 0 are simple.

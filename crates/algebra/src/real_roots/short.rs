@@ -21,8 +21,8 @@ use super::rough::{self, error_of_halving, power_of_two};
 use pulp::Arch;
 use rug::Integer;
 
-/// The highest degree: binomials of it are exact in f64, and beyond it f64 settles little.
-pub(super) const HIGHEST: usize = 40;
+/// The highest degree: binomials of it, and of the lower ones times them, are exact in f64, and beyond it f64 settles little.
+pub(super) const HIGHEST: usize = 50;
 /// The most halvings of the first cell in a row, and the most cells for each degree: others need more bits, or are clusters.
 const DEEPEST: u32 = 30;
 const CELLS: usize = 12;
