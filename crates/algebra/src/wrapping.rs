@@ -74,8 +74,8 @@ impl<const N: usize> Wrapping for Wide<N> {
     #[inline(always)]
     fn from_wide(n: i128) -> Self {
         let mut limbs = [if n < 0 { u64::MAX } else { 0 }; N];
-        limbs[0] = n as u64;
-        limbs[1] = (n >> 64) as u64;
+        limbs[0] = n.cast_unsigned() as u64;
+        limbs[1] = (n.cast_unsigned() >> 64) as u64;
         Self(limbs)
     }
 

@@ -28,8 +28,9 @@ use std::borrow::Cow;
 /// much cancels in it, for the number of terms, and for the sign.
 const MARGIN: usize = 6;
 /// The most limbs of the values before coprime polynomials are told by an image modulo a prime, which is faster where a slot has more than
-/// one limb; and the most after that.
+/// one limb; the most after that, beyond which a few images take less; and the most where all slots are shorter than a limb.
 const FEW_LIMBS: usize = 32;
+const KNOWN_LIMBS: usize = 320;
 const MOST_LIMBS: usize = 1 << 14;
 
 impl Polynomial<Int> {
@@ -46,12 +47,17 @@ impl Polynomial<Int> {
         let one = Int::one();
         // Copied only where there is something to divide by.
         let parts = [divided(&self.coefficients, &contents[0]), divided(&other.coefficients, &contents[1])];
-        let numbers = [Numbers::new(&*parts[0])?, Numbers::new(&*parts[1])?];
+        let numbers = [Numbers::new(&parts[0])?, Numbers::new(&parts[1])?];
         let [m, n] = &numbers;
         let terms = (usize::BITS - self.len().max(other.len()).leading_zeros()) as usize;
         let width = m.longest.max(n.longest) + terms + MARGIN;
         let limbs = fields[0].slots().max(fields[1].slots()) * width / LIMB;
-        if limbs > if known || width <= LIMB { MOST_LIMBS } else { FEW_LIMBS } {
+        let most = match (width <= LIMB, known) {
+            (true, _) => MOST_LIMBS,
+            (false, true) => KNOWN_LIMBS,
+            (false, false) => FEW_LIMBS,
+        };
+        if limbs > most {
             return None;
         }
         let values = [fields[0].value(width, &self.monomials, m).0, fields[1].value(width, &other.monomials, n).0];
@@ -60,7 +66,8 @@ impl Polynomial<Int> {
         let lowest = ((fields[0].lowest.min(fields[1].lowest)) as u64) << fields[0].shift;
         let slots = common.significant_bits() as usize / width + 1;
         let mut reader = Reader::new(&common, width, slots, false);
-        let number = |slot| if width <= LIMB { Int::from(reader.word(slot)) } else { Int::from(reader.large(slot)) };
+        // Half of `2^64` is no word.
+        let number = |slot| if width < LIMB { Int::from(reader.word(slot)) } else { Int::from(reader.large(slot)) };
         let mut divisor: Vec<Int> = (0..slots).map(number).collect();
         while divisor.last().is_some_and(Ring::is_zero) {
             divisor.pop();
@@ -69,7 +76,9 @@ impl Polynomial<Int> {
             let own = divisor.iter().fold(Int::zero(), |gcd, c| if gcd == one { gcd } else { gcd.gcd(c) });
             let value = if own == one { common } else { common.div_exact(&own.to_integer()) };
             if own != one {
-                divisor.iter_mut().for_each(|c| *c = c.div_exact(&own));
+                for c in &mut divisor {
+                    *c = c.div_exact(&own);
+                }
             }
             let bits = Numbers::new(&divisor)?.longest;
             for (f, field) in values.iter().zip(&fields) {

@@ -443,7 +443,9 @@ fn wrapped_product<C: Wrapping, R: Ring>(
         None if products <= TABLED => Sums::of(products),
         None => return None,
     };
-    left.iter().for_each(|term| sums.add(*term, &right));
+    for term in &left {
+        sums.add(*term, &right);
+    }
     let terms = sums.take();
     let monomials = places.map_or_else(|| terms.iter().map(|term| term.0).collect(), |places| places.monomials(&terms));
     Some((monomials, terms.into_iter().map(|term| term.1.to_ring()).collect()))

@@ -156,7 +156,9 @@ fn roots_of_multiplicity(coefficients: &[Integer]) -> Vec<RealRoot> {
             return Some(vec![zero(*multiplicity)]);
         }
         let mut roots = roots_by_floats(factor.coefficients(), rough::leading, Integer::clone)?;
-        roots.iter_mut().for_each(|root| root.multiplicity = *multiplicity);
+        for root in &mut roots {
+            root.multiplicity = *multiplicity;
+        }
         Some(roots)
     };
     if factors.iter().all(|(_, multiplicity)| *multiplicity == 1) {
