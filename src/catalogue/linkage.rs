@@ -141,7 +141,9 @@ pub(super) fn linkage(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<
         for input in scope.list(inputs, "input")? {
             cases.push(case(scope, input, &linkage)?);
         }
-    } else {
+    }
+    // An empty list of inputs is one of a structure, as none is.
+    if cases.is_empty() {
         let line = mechanism.line();
         cases.push(LinkageCase {
             given: Vec::new(),

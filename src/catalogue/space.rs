@@ -102,7 +102,9 @@ pub(super) fn space(scope: &mut Scope<'_>, top: &Node, name: &str) -> Result<Spa
         for input in scope.list(inputs, "input")? {
             cases.push(case(scope, input, &linkage)?);
         }
-    } else {
+    }
+    // An empty list of inputs is one of a structure, as none is.
+    if cases.is_empty() {
         let (given, expected) = (Vec::new(), SpaceClaims::default());
         cases.push(SpaceCase { given, exact: true, expected, line: mechanism.line() });
     }

@@ -107,18 +107,15 @@ pub(super) fn sphere(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<S
     joined(scope, &linkage)?;
     let exact = !scope.is_rounded();
     let mut cases = Vec::new();
-    match table.get("input") {
-        Some(inputs) => {
-            for input in scope.list(inputs, "input")? {
-                cases.push(case(scope, input, &linkage)?);
-            }
+    if let Some(inputs) = table.get("input") {
+        for input in scope.list(inputs, "input")? {
+            cases.push(case(scope, input, &linkage)?);
         }
-        None => cases.push(SphereCase {
-            given: Vec::new(),
-            exact: true,
-            expected: SphereClaims::default(),
-            line: mechanism.line(),
-        }),
+    }
+    // An empty list of inputs is one of a structure, as none is.
+    if cases.is_empty() {
+        let (given, expected) = (Vec::new(), SphereClaims::default());
+        cases.push(SphereCase { given, exact: true, expected, line: mechanism.line() });
     }
     let top = claims(scope, &table, &linkage)?;
     if let (Some(first), true) = (cases.first_mut(), top != SphereClaims::default()) {

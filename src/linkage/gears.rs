@@ -14,7 +14,7 @@ use super::points::EFFORT;
 use super::quadratic::{Root, Solved};
 use super::real_system::{Form, RealSystem, circles, constant, is_real, turned, way};
 use super::state::{Half, Number, State, number};
-use crate::algebra::groebner::{Basis, MOST_VARIABLES};
+use crate::algebra::groebner::{Basis, Equation, MOST_VARIABLES};
 use crate::algebra::ring::Ring;
 use crate::error::{Error, Result};
 use crate::kinematics::linkage::{Gaussian, Linkage, Pair};
@@ -352,6 +352,47 @@ pub fn driven<R: Half>(
     is_train(&closure.equations).then(|| torus.turns.into_iter().map(|turn| turn.factor).collect())
 }
 
+/// Returns the few unknown rotations where their powers are not higher than those of the meshes, which makes them an advantage.
+fn lower<'t>(few: Option<&'t Torus>, plain: &'t Torus) -> &'t Torus {
+    few.filter(|few| few.degree() <= plain.degree()).unwrap_or(plain)
+}
+
+/// The equations of a part with gears over the rationals. Their solutions are its assemblies, one for one, and those of real assemblies
+/// are real.
+#[derive(Clone, Debug)]
+pub struct GearedEquations {
+    /// Number of unknowns.
+    pub unknowns: usize,
+    /// The polynomials that vanish.
+    pub list: Vec<Equation>,
+    /// The rotation of every class.
+    turns: Vec<Form>,
+}
+
+impl GearedEquations {
+    /// Returns the equations of a group in a branch; `None` for numbers that are not rational, and for more unknowns than a basis may have.
+    #[must_use]
+    pub fn of(linkage: &Linkage, closure: &Closure, group: &Group, state: &State) -> Option<Self> {
+        let equations = &closure.equations;
+        let meshes = meshes(linkage, closure, group, state)?;
+        let (few, plain) = (Torus::of(&meshes, equations.classes), Torus::plain(&meshes, equations.classes));
+        let torus = lower(few.as_ref(), &plain);
+        if 2 * torus.unknowns + equations.slides.len() > MOST_VARIABLES {
+            return None;
+        }
+        let system = torus.system(&equations.exact().filter(is_real)?)?;
+        Some(Self { unknowns: system.unknowns, list: system.equations, turns: system.turns })
+    }
+
+    /// Returns cosine and sine of the angle of a body against another one. Both are given by their class and their rotation against it.
+    #[must_use]
+    pub fn angle(&self, body: (usize, &Gaussian), against: (usize, &Gaussian)) -> [Equation; 2] {
+        let [one, other] = [body, against].map(|(class, own)| self.turns[class].mul(&constant(own)));
+        let turn = one.mul(&Form { re: other.re, im: other.im.neg() });
+        [turn.re, turn.im]
+    }
+}
+
 /// Solves a group with gears.
 #[must_use]
 pub fn geared(linkage: &Linkage, closure: &Closure, group: &Group, state: &State) -> Solved {
@@ -363,8 +404,7 @@ pub fn geared(linkage: &Linkage, closure: &Closure, group: &Group, state: &State
         return Solved::Undecided("gears whose bodies are not of one group".to_owned());
     };
     let (few, plain) = (Torus::of(&meshes, equations.classes), Torus::plain(&meshes, equations.classes));
-    // Few unknown rotations are an advantage where their powers are not higher than those of the meshes.
-    let torus = few.as_ref().filter(|few| few.degree() <= plain.degree()).unwrap_or(&plain);
+    let torus = lower(few.as_ref(), &plain);
     let is_small = 2 * torus.unknowns + equations.slides.len() <= MOST_VARIABLES;
     let cycles = equations.exact().filter(|cycles| is_small && is_real(cycles));
     let Some(system) = cycles.and_then(|cycles| torus.system(&cycles)) else {

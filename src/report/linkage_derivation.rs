@@ -83,17 +83,24 @@ pub fn verdict(file: &LinkageFile, derivation: &LinkageDerivation) -> String {
 
 /// Describes the steps that lead to the polynomials.
 fn steps(file: &LinkageFile, derivation: &LinkageDerivation) -> Vec<String> {
-    let mut steps = vec![
-        "Every cycle of bodies gives an equation in the rotations exp(i angle) and its conjugate.".to_owned(),
-        "Cramer's rule on these makes a square matrix in the rotation of one body, singular at every assembly."
-            .to_owned(),
-    ];
+    let cycles = "Every cycle of bodies gives an equation in the rotations exp(i angle) and its conjugate.".to_owned();
+    let (middle, last) = if derivation.gears.is_empty() {
+        (
+            "Cramer's rule on these makes a square matrix in the rotation of one body, singular at every assembly.",
+            "the determinant of the matrix",
+        )
+    } else {
+        (
+            "Every pair of gears gives an equation between powers of rotations. In the ring of polynomials modulo all equations, whose \
+             dimension is the number of assemblies, multiplication by a function has its values at the assemblies for eigenvalues.",
+            "the determinant of t (1 + c) - s, with the matrices of multiplication by cosine c and sine s,",
+        )
+    };
+    let mut steps = vec![cycles, middle.to_owned()];
     if let Some(best) = derivation.polynomials.first() {
-        steps.push(format!(
-            "The closure polynomial is the determinant of the matrix of {}, without factors 1 + t^2; {}.",
-            counted(best.rows, "row"),
-            meaning(file, best)
-        ));
+        let rows = counted(best.rows, "row");
+        let without = if derivation.gears.is_empty() { ", without factors 1 + t^2" } else { "" };
+        steps.push(format!("The closure polynomial is {last} of {rows}{without}; {}.", meaning(file, best)));
     }
     steps
 }
@@ -208,9 +215,14 @@ pub fn completed(file: &LinkageFile, case: usize, own: Value) -> Value {
 /// The closure equations with their names.
 fn cycles(file: &LinkageFile, derivation: &LinkageDerivation) -> Vec<(String, String)> {
     let names: Vec<String> = derivation.variables.iter().map(|one| symbol(file, *one)).collect();
+    let cycles = derivation.equations.len().saturating_sub(2 * derivation.gears.len()) / 2;
     let equations = derivation.equations.iter().enumerate().map(|(k, equation)| {
         let half = if k % 2 == 0 { "x" } else { "y" };
-        (format!("cycle {}, {half}", k / 2 + 1), written(equation, &names))
+        let of = match (k / 2).checked_sub(cycles) {
+            None => format!("cycle {}", k / 2 + 1),
+            Some(gear) => format!("gears {}", file.linkage.joints[derivation.gears[gear]].name),
+        };
+        (format!("{of}, {half}"), written(equation, &names))
     });
     equations.collect()
 }

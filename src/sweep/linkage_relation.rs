@@ -139,7 +139,8 @@ impl BodyRelations {
             let own = zero.at(linkage, &Rational::from(*value))?;
             let given: Vec<Given> = std::iter::once(own).chain(held.iter().cloned()).collect();
             let groups = groups_of(linkage, &given).ok()?;
-            if groups.list.iter().any(|group| group.clusters.len() > MOST_BODIES) {
+            // Gears have no relation that is proved, and their polynomials take long.
+            if groups.list.iter().any(|group| group.clusters.len() > MOST_BODIES || !group.gears.is_empty()) {
                 return None;
             }
             let derivation = derive_linkage(linkage, &given).ok()?;

@@ -1,5 +1,6 @@
 //! The closure polynomial of every group of a linkage, and the relation of its output to its input.
 
+use super::geared::derive_geared;
 use super::without_circles;
 use crate::algebra::int::Int;
 use crate::algebra::modular::determinant;
@@ -8,12 +9,12 @@ use crate::algebra::ring::{Domain, Ring};
 use crate::algebra::sort;
 use crate::algebra::univariate::Univariate;
 use crate::derivation::equation::primitive;
-use crate::error::{Error, Result};
-use crate::kinematics::linkage::{Gaussian, Given, Linkage, Pair};
+use crate::error::Result;
+use crate::kinematics::linkage::{Gaussian, Given, Linkage, LinkageJoint, Pair};
 use crate::linkage::assembly::{Asked, Assemblies, assemblies, glued};
 use crate::linkage::equations::{Closure, Equations};
 use crate::linkage::general::{residue, torus_degree};
-use crate::linkage::groups::{MOST_CLUSTERS, Merged};
+use crate::linkage::groups::{Group, MOST_CLUSTERS, Merged};
 use crate::linkage::isotropic::Isotropic;
 use crate::linkage::parts::{foundations, group_of};
 use crate::linkage::pencil::{Parameter, Pencil};
@@ -46,7 +47,7 @@ pub struct GroupPolynomial {
     pub at_pi: usize,
     /// The number of assemblies of this group and those it depends on, with multiplicity; `None` if it is not known.
     pub assemblies: Option<usize>,
-    /// Number of rows of the matrix.
+    /// Number of rows of the matrix: the pencil of the cycles, or for gears the multiplication in the coordinate ring.
     pub rows: usize,
 }
 
@@ -96,8 +97,10 @@ pub struct LinkageDerivation {
     pub(super) relations: Vec<Option<Relation>>,
     /// The numbers of assemblies of the groups, in the order in which the groups are solved.
     pub groups: Vec<(Vec<Vec<usize>>, usize)>,
-    /// The closure equations of the best polynomial, two for every cycle, in `variables`.
+    /// The closure equations of the best polynomial, two for every cycle and then two for every pair of gears, in `variables`.
     pub equations: Vec<Polynomial<Rational>>,
+    /// The pairs of gears, by their joints.
+    pub gears: Vec<usize>,
     /// The meaning of the variables of the equations.
     pub variables: Vec<Symbol>,
     /// Whether no displacement that is unknown can become infinite: the best polynomial depends on all groups, and each displacement is the
@@ -127,23 +130,25 @@ pub enum Symbol {
 }
 
 /// The equations of a part of a linkage.
-struct Part {
-    closure: Closure,
-    state: State,
+pub(super) struct Part {
+    pub group: Group,
+    pub closure: Closure,
+    pub state: State,
     exact: Exact,
 }
 
 impl Part {
-    fn new(linkage: &Linkage, given: &[Given], joints: Vec<usize>) -> Option<Self> {
+    pub fn new(linkage: &Linkage, given: &[Given], joints: Vec<usize>) -> Option<Self> {
         let mut merged = glued(linkage, given).ok()?.0;
         let state = glued_state(linkage, given)?;
-        let closure = Closure::new(linkage, &group_of(linkage, joints, &mut merged), &state)?;
+        let group = group_of(linkage, joints, &mut merged);
+        let closure = Closure::new(linkage, &group, &state)?;
         let exact = closure.equations.exact()?;
-        Some(Self { closure, state, exact })
+        Some(Self { group, closure, state, exact })
     }
 
     /// Returns class and rotation of a body relative to it, exactly.
-    fn class_of(&self, body: usize) -> Option<(usize, Isotropic<Gaussian>)> {
+    pub fn class_of(&self, body: usize) -> Option<(usize, Isotropic<Gaussian>)> {
         let (class, turn) = self.closure.class_of(&self.state, body)?;
         let half = |value: &crate::linkage::isotropic::Value| value.exact.as_ref()?.to_gaussian();
         Some((class, Isotropic { z: half(&turn.z)?, w: half(&turn.w)? }))
@@ -169,7 +174,7 @@ impl Part {
     }
 
     /// Returns the closure equations in cosines and sines of the angles relative to `base`.
-    fn equations(&self, base: usize) -> Option<(Vec<Symbol>, Vec<Polynomial<Rational>>)> {
+    pub fn equations(&self, base: usize) -> Option<(Vec<Symbol>, Vec<Polynomial<Rational>>)> {
         let (rest, own) = self.class_of(base)?;
         let exact = &self.exact;
         // The first body of every class represents it.
@@ -270,11 +275,10 @@ fn positive(polynomial: Univariate<Integer>) -> Univariate<Integer> {
 /// Derives the closure polynomials of all groups, and the polynomial of input and output.
 ///
 /// # Errors
-/// As [`crate::linkage::assembly::groups_of`], and for gears.
+/// As [`crate::linkage::assembly::groups_of`], and for linkages with gears whose equations have no small Gröbner basis.
 pub fn derive_linkage(linkage: &Linkage, given: &[Given]) -> Result<LinkageDerivation> {
-    if let Some(gear) = linkage.joints.iter().find(|joint| joint.is_gear()) {
-        let message = format!("closure polynomials of linkages with gears, such as {}, are not derived", gear.name);
-        return Err(Error::Unsupported(message));
+    if linkage.joints.iter().any(LinkageJoint::is_gear) {
+        return derive_geared(linkage, given);
     }
     let merged = glued(linkage, given)?.0;
     let solved = |complex| assemblies(linkage, given, Asked { complex, stop: &AtomicBool::new(false) });
@@ -298,7 +302,17 @@ pub fn derive_linkage(linkage: &Linkage, given: &[Given]) -> Result<LinkageDeriv
     let is_bounded = part.as_ref().is_some_and(|(_, part, is_whole)| *is_whole && part.is_bounded());
     let equations = part.and_then(|(best, part, _)| part.equations(best.against));
     let (variables, equations) = equations.unwrap_or_default();
-    Ok(LinkageDerivation { polynomials, input_output, relations, groups, equations, variables, is_bounded, warnings })
+    Ok(LinkageDerivation {
+        polynomials,
+        input_output,
+        relations,
+        groups,
+        equations,
+        gears: Vec::new(),
+        variables,
+        is_bounded,
+        warnings,
+    })
 }
 
 /// Returns the polynomials of all groups, the last group first, and what is to be said of groups without one.

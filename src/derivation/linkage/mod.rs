@@ -3,6 +3,7 @@
 mod closure;
 mod cosines;
 mod four_bar;
+mod geared;
 mod inputs;
 mod places;
 mod symbolic;
