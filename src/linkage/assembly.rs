@@ -6,7 +6,7 @@ use super::exact_group::{Decided, decided};
 use super::fibres::by_fibres;
 use super::followed::{United, follow};
 use super::geared_groups::geared_groups;
-use super::gears::{geared, is_train, teeth};
+use super::gears::{Geared, geared, is_train, teeth};
 use super::general::{general, least_rows, with_choices};
 use super::groups::{Group, Groups, MOST_CLUSTERS, MOST_IN_BOXES, Merged};
 use super::isotropic::{Isotropic, Value};
@@ -359,8 +359,15 @@ pub(super) fn attempt(
             } else {
                 solution.route =
                     if is_train(&closure.equations) { Route::Wheel } else { Route::Gears(group.gears.len()) };
-                let solved = geared(linkage, &closure, group, state);
-                add(solved, at, &mut solution, &mut next, &mut found);
+                let route = solution.route.clone();
+                match geared(linkage, &closure, group, state) {
+                    Geared::Wheels(roots) => add(Solved::Roots(roots), at, &mut solution, &mut next, &mut found),
+                    Geared::Decided(decided) => by_basis(decided, &[], at, &mut solution, &mut next, &mut found),
+                    Geared::Undecided(reason) => {
+                        add(Solved::Undecided(reason), at, &mut solution, &mut next, &mut found);
+                    }
+                }
+                solution.route = route;
             }
             let is_open = !later.is_empty() && !follow(linkage, &mut found.curves[moving..], later, asked);
             if is_open && united.solve(at, later, moving, &mut found) {

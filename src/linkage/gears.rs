@@ -7,13 +7,15 @@
 //! the cosines x and sines y of the unknown rotations, `x^2 + y^2 = 1`, and in the slides: its Gröbner basis counts the assemblies.
 
 use super::equations::{Closure, Equations};
-use super::exact_group::solutions;
+use super::exact_group::{Decided, solutions};
 use super::groups::Group;
 use super::isotropic::{Isotropic, Value};
 use super::points::EFFORT;
-use super::quadratic::{Root, Solved};
-use super::real_system::{Form, RealSystem, circles, constant, is_real, turned, way};
+use super::quadratic::Root;
+use super::real_motion::moving;
+use super::real_system::{Form, RealSystem, constant, is_real};
 use super::state::{Half, Number, State, number};
+use super::turn_system::TurnSystem;
 use crate::algebra::groebner::{Basis, Equation, MOST_VARIABLES};
 use crate::algebra::ring::Ring;
 use crate::error::{Error, Result};
@@ -82,11 +84,12 @@ fn mesh<R: Half>(linkage: &Linkage, closure: &Closure<R>, state: &State<R>, gear
 
 /// A rotation as a number times powers of unknown rotations.
 #[derive(Clone)]
-struct Power<R = Value> {
+pub(super) struct Power<R = Value> {
     factor: Isotropic<R>,
     /// Number of factors of meshes that are multiplied in `factor`.
     factors: i32,
-    exponents: Vec<i32>,
+    /// The exponents of the unknown rotations.
+    pub exponents: Vec<i32>,
 }
 
 impl<R: Half> Power<R> {
@@ -114,14 +117,12 @@ impl<R: Half> Power<R> {
 }
 
 impl Power {
-    fn form(&self) -> Option<Form> {
+    /// The factor; `None` where it is not rational, or of a complex assembly.
+    pub fn number(&self) -> Option<Gaussian> {
         let half = |value: &Value| value.exact.as_ref()?.to_gaussian();
         let factor = half(&self.factor.z)?;
         // Of a complex assembly the second half is another number.
-        if half(&self.factor.w)? != Isotropic::of(&factor).w {
-            return None;
-        }
-        Some(self.exponents.iter().enumerate().fold(constant(&factor), |form, (k, x)| form.mul(&turned(k + 1, *x))))
+        (half(&self.factor.w)? == Isotropic::of(&factor).w).then_some(factor)
     }
 }
 
@@ -129,12 +130,13 @@ impl Power {
 ///
 /// The exponents of the meshes are an integer matrix. Changes of its columns that have integer inverses are changes of the unknown
 /// rotations which lose none and add none. They make the matrix triangular, and where a row ends in 1 its mesh gives a rotation.
-struct Torus<R = Value> {
+pub(super) struct Torus<R = Value> {
     /// The rotation of every class.
-    turns: Vec<Power<R>>,
+    pub turns: Vec<Power<R>>,
     /// What remains of the meshes, each of which is 1: where they determine the unknown rotations, the k-th ends in a power of the k-th.
-    rest: Vec<Power<R>>,
-    unknowns: usize,
+    pub rest: Vec<Power<R>>,
+    /// The number of unknown rotations.
+    pub unknowns: usize,
 }
 
 impl<R: Half> Torus<R> {
@@ -265,38 +267,9 @@ impl Torus {
         Some(found.into_iter().map(root).collect())
     }
 
-    /// The polynomials that vanish: both parts of every cycle and of what remains of the meshes, and the circles of the unknown rotations;
-    /// `None` for numbers that are not rational.
+    /// The polynomials that vanish at the assemblies; `None` for numbers that are not rational, and for more unknowns than a basis may have.
     fn system(&self, cycles: &Equations<Isotropic<Gaussian>>) -> Option<RealSystem> {
-        let turns: Vec<Form> = self.turns.iter().map(Power::form).collect::<Option<_>>()?;
-        let ways: Vec<Form> = (0..cycles.slides.len()).map(|slide| way(self.unknowns + 1, slide)).collect();
-        let mut list = Vec::new();
-        for (k, cycle) in cycles.cycles.iter().enumerate() {
-            let links = cycle.iter().zip(&turns).map(|(c, turn)| constant(&c.z).mul(turn));
-            let slides = cycles.slides.iter().zip(&ways);
-            let slides = slides.map(|(one, way)| constant(&one.coefficients[k].z).mul(&turns[one.class]).mul(way));
-            let sum = links.chain(slides).fold(Form::zero(), |sum, term| sum.add(&term));
-            list.extend([sum.re, sum.im]);
-        }
-        for rest in &self.rest {
-            let side = |sign: i32| {
-                let exponents = rest.exponents.iter().map(|x| (x * sign).max(0)).collect();
-                let factor = if sign > 0 { rest.factor.clone() } else { Number::one() };
-                Power { factor, exponents, ..rest.clone() }.form()
-            };
-            let difference = side(1)?.sub(&side(-1)?);
-            list.extend([difference.re, difference.im]);
-        }
-        list.extend(circles(self.unknowns + 1));
-        list.retain(|equation| !equation.is_zero());
-        let shifts = ways.into_iter().map(|way| way.re).collect();
-        Some(RealSystem {
-            unknowns: 2 * self.unknowns + cycles.slides.len(),
-            turns,
-            shifts,
-            equations: list,
-            spinning: Vec::new(),
-        })
+        TurnSystem::of(self, cycles)?.real()
     }
 }
 
@@ -377,9 +350,6 @@ impl GearedEquations {
         let meshes = meshes(linkage, closure, group, state)?;
         let (few, plain) = (Torus::of(&meshes, equations.classes), Torus::plain(&meshes, equations.classes));
         let torus = lower(few.as_ref(), &plain);
-        if 2 * torus.unknowns + equations.slides.len() > MOST_VARIABLES {
-            return None;
-        }
         let system = torus.system(&equations.exact().filter(is_real)?)?;
         Some(Self { unknowns: system.unknowns, list: system.equations, turns: system.turns })
     }
@@ -393,44 +363,49 @@ impl GearedEquations {
     }
 }
 
+/// What is known of a group with gears.
+pub(super) enum Geared {
+    /// The assemblies of a train of wheels.
+    Wheels(Vec<Root>),
+    /// What a basis says.
+    Decided(Decided),
+    /// Nothing, and why.
+    Undecided(String),
+}
+
 /// Solves a group with gears.
-#[must_use]
-pub fn geared(linkage: &Linkage, closure: &Closure, group: &Group, state: &State) -> Solved {
+pub(super) fn geared(linkage: &Linkage, closure: &Closure, group: &Group, state: &State) -> Geared {
     let equations = &closure.equations;
     if let Some(turns) = driven(linkage, closure, group, state) {
-        return Solved::Roots(vec![Root { turns, shifts: Vec::new(), multiplicity: 1 }]);
+        return Geared::Wheels(vec![Root { turns, shifts: Vec::new(), multiplicity: 1 }]);
     }
     let Some(meshes) = meshes(linkage, closure, group, state) else {
-        return Solved::Undecided("gears whose bodies are not of one group".to_owned());
+        return Geared::Undecided("gears whose bodies are not of one group".to_owned());
     };
     let (few, plain) = (Torus::of(&meshes, equations.classes), Torus::plain(&meshes, equations.classes));
-    let torus = lower(few.as_ref(), &plain);
-    let is_small = 2 * torus.unknowns + equations.slides.len() <= MOST_VARIABLES;
-    let cycles = equations.exact().filter(|cycles| is_small && is_real(cycles));
-    let Some(system) = cycles.and_then(|cycles| torus.system(&cycles)) else {
+    let cycles = equations.exact().filter(is_real);
+    let Some(system) = cycles.as_ref().and_then(|cycles| lower(few.as_ref(), &plain).system(cycles)) else {
         let undecided = || {
-            Solved::Undecided(if is_small {
+            Geared::Undecided(if cycles.is_none() {
                 "a group with gears stands on an assembly whose numbers are not rational".to_owned()
             } else {
-                format!("a group with gears has more than {MOST_VARIABLES} unknowns")
+                format!("a group with gears has numbers that are not rational, or more than {MOST_VARIABLES} unknowns")
             })
         };
         let roots = few.as_ref().filter(|_| is_train(equations)).and_then(Torus::roots);
-        return roots.map_or_else(undecided, Solved::Roots);
+        return roots.map_or_else(undecided, Geared::Wheels);
     };
     let Some(basis) = Basis::of(system.unknowns, &system.equations, EFFORT) else {
-        return Solved::Undecided("the Gröbner basis of a group with gears takes more work than is allowed".to_owned());
+        return Geared::Undecided("the Gröbner basis of a group with gears takes more work than is allowed".to_owned());
     };
-    match basis.dimension() {
-        None => Solved::Roots(Vec::new()),
+    Geared::Decided(match basis.dimension() {
+        None => Decided::Finite(Vec::new()),
         Some(0) => match solutions(&system, &basis) {
-            Some(list) => Solved::Roots(list.into_iter().map(|(root, _)| root).collect()),
-            None => Solved::Undecided("the assemblies of a group with gears were not told apart".to_owned()),
+            Some(list) => Decided::Finite(list),
+            None => return Geared::Undecided("the assemblies of a group with gears were not told apart".to_owned()),
         },
-        Some(dimension) => Solved::Undecided(format!(
-            "the assemblies of a group with gears form a set of dimension {dimension}, complex ones counted"
-        )),
-    }
+        Some(dimension) => Decided::Moving(Box::new(moving(&system, dimension))),
+    })
 }
 
 /// Whether a group consists of wheels that turn about joints of the rest and of one another.

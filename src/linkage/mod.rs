@@ -45,3 +45,4 @@ pub mod sphere;
 pub mod state;
 pub mod tower;
 pub mod tree;
+mod turn_system;
