@@ -135,6 +135,7 @@ pub(super) fn linkage(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<
     reader.joints(scope.need(&mechanism, "joints")?, ground)?;
     let linkage = Linkage { ground, bodies: reader.bodies, joints: reader.joints };
     joined(scope, &linkage)?;
+    joined_once(scope, &linkage)?;
     let exact = !scope.is_rounded();
     let mut cases = Vec::new();
     if let Some(inputs) = table.get("input") {
@@ -186,6 +187,28 @@ fn traced(scope: &Scope<'_>, node: &Node, linkage: &Linkage) -> Result<TraceClai
     };
     let degree = scope.count(scope.need(&table, "degree")?, "degree")? as u64;
     Ok(TraceClaim { body, point: (name.to_owned(), place.clone()), degree, line: table.line() })
+}
+
+/// Checks that no two R joints of the same bodies stand at one point of either body: the second says nothing, or contradicts the first.
+fn joined_once(scope: &Scope<'_>, linkage: &Linkage) -> Result<()> {
+    let mut between: HashMap<[usize; 2], Vec<&LinkageJoint>> = HashMap::new();
+    for joint in linkage.joints.iter().filter(|joint| matches!(joint.pair, Pair::Revolute)) {
+        let [a, b] = joint.of;
+        let known = between.entry([a.min(b), a.max(b)]).or_default();
+        for other in known.iter() {
+            let at = |joint: &LinkageJoint, body: usize| joint.at[usize::from(joint.of[0] != body)].clone();
+            if let Some(body) = [a, b].into_iter().find(|body| at(joint, *body) == at(other, *body)) {
+                let [one, two, at] = [a, b, body].map(|body| &linkage.bodies[body].name);
+                let message = format!(
+                    "found the joints {} and {} between {one} and {two} at the same point of {at}, expected different points",
+                    other.name, joint.name
+                );
+                return Err(scope.fail(joint.line, message));
+            }
+        }
+        known.push(joint);
+    }
+    Ok(())
 }
 
 /// Checks that every body is joined to the ground, possibly through others.

@@ -290,6 +290,8 @@ fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily]
         };
         let reason = format!("no assembly is real: all {complex} of groups of {counts} are complex{far}");
         (Status::Unreachable, rounded, code, reason)
+    } else if found.groups.is_empty() {
+        (Status::Complete, rounded, code, "every body is held by what is given".to_owned())
     } else {
         let reason = format!("the groups have {counts}, with multiplicity: {because}");
         (Status::Complete, rounded, code, reason)

@@ -137,6 +137,13 @@ pub struct Assemblies {
     pub gap: Option<f64>,
 }
 
+impl Assemblies {
+    /// Notes by how much a group without a real assembly does not close.
+    fn note_gap(&mut self, equations: &Equations<Number>) {
+        self.gap = [self.gap, dyad_gap(equations)].into_iter().flatten().reduce(f64::min);
+    }
+}
+
 /// A joint with its two bodies.
 pub type Link = (usize, [usize; 2]);
 
@@ -484,6 +491,9 @@ pub(super) fn by_basis(
     match decided {
         Decided::Finite(roots) => {
             let (roots, real): (Vec<Root>, Vec<bool>) = roots.into_iter().unzip();
+            if state.real && real.iter().all(|real| !real) {
+                found.note_gap(&closure.equations);
+            }
             add_roots(&roots, real.into_iter().map(Some), at, solution, next, found);
         }
         Decided::Spinning(roots, spinning) => {
@@ -600,8 +610,7 @@ fn add(solved: Solved, at: Branch<'_>, solution: &mut Solution, next: &mut Vec<S
         Solved::Roots(roots) => {
             let real = realness(&roots);
             if state.real && real.iter().all(|real| *real == Some(false)) {
-                let gap = dyad_gap(&closure.equations);
-                found.gap = [found.gap, gap].into_iter().flatten().reduce(f64::min);
+                found.note_gap(&closure.equations);
             }
             add_roots(&roots, real.into_iter(), at, solution, next, found);
         }

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use looproot::internal::catalogue::{Any, Format, LinkageFile, Options, any_from_text};
+use looproot::internal::derivation::derive_linkage;
 use looproot::internal::kinematics::linkage::{Accuracy, Given};
 use looproot::internal::linkage::answer::{LinkageAnswer, LinkageMode, solve};
 use looproot::internal::linkage::dyads::Dyads;
@@ -116,7 +117,11 @@ struct Planted {
 
 fn planted(random: &mut ChaCha8Rng, input: &str) -> Planted {
     let ratios = [(-1, 1), (2, 1), (3, 1), (-2, 1), (1, 2), (3, 2), (-1, 2), (4, 1), (-3, 1), (2, 3)];
-    let (p, q) = ratios[random.random_range(0..ratios.len())];
+    let ratio = ratios[random.random_range(0..ratios.len())];
+    planted_with(random, input, ratio)
+}
+
+fn planted_with(random: &mut ChaCha8Rng, input: &str, (p, q): (i32, i32)) -> Planted {
     let (common, phase) = (turn(random), turn(random));
     // The common root of both rotations is rational.
     let (crank, wheel) = (power(&common, q), times(&phase, &power(&common, p)));
@@ -234,6 +239,84 @@ fn three_hundred_geared_five_bars() {
     assert!(met >= 280 && open <= 3);
 }
 
+/// Rods leave the equations with their lengths alone, so that high powers of the cranks remain cheap.
+#[test]
+fn high_ratios_have_all_assemblies() {
+    for (seed, ratio) in (0..).zip([(7, 1), (7, 4), (-5, 2), (11, 3)]) {
+        let Planted { text, angles, count, real } = planted_with(&mut ChaCha8Rng::seed_from_u64(seed), "C", ratio);
+        let answer = solved(&text);
+        assert_eq!((answer.verdict.status, answer.verdict.proof), (Status::Complete, Proof::Proved), "{ratio:?}");
+        assert_eq!(answer.verdict.complex, count, "{ratio:?}");
+        assert!(is_listed(&answer, &angles) && answer.verdict.real >= real, "{ratio:?}");
+    }
+}
+
+/// The closure polynomial of every body has as many roots as there are assemblies, and the half tangents of all of them among these.
+#[test]
+fn closure_polynomials_have_all_assemblies_for_roots() {
+    for seed in 0..12 {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let input = ["B", "C"][random.random_range(0..2)];
+        let text = planted(&mut random, input).text;
+        let file = read(&text);
+        let derivation = derive_linkage(&file.linkage, &file.cases[0].given).unwrap();
+        let answer = solved(&text);
+        assert_eq!(derivation.equations.len(), 4, "two of the cycle and two of the gears");
+        assert!(derivation.polynomials.len() >= 3);
+        for own in &derivation.polynomials {
+            assert!(own.is_proved());
+            assert_eq!(own.roots(), answer.verdict.complex, "{seed}");
+            let coefficients: Vec<f64> = own.coefficients.coefficients().iter().map(rug::Integer::to_f64).collect();
+            for mode in answer.modes.iter().filter(|mode| mode.real) {
+                let (cos, sin) = ((mode.bodies[own.body].0.re / 2.0).cos(), (mode.bodies[own.body].0.re / 2.0).sin());
+                let (mut value, mut size) = (0.0, 0.0);
+                for (k, c) in (0..).zip(&coefficients) {
+                    let last = i32::try_from(coefficients.len()).unwrap() - 1;
+                    let term = c * f64::powi(sin, k) * f64::powi(cos, last - k);
+                    value += term;
+                    size += term.abs();
+                }
+                assert!(value.abs() <= 1e-8 * size, "{seed}: {value} of {size}");
+            }
+        }
+        let first = &derivation.polynomials[0];
+        assert_eq!(first.coefficients.distinct_real_roots() + usize::from(first.at_pi > 0), answer.verdict.real);
+    }
+}
+
+/// A wheel on an arm, driven by the sun, drives a second wheel of the size of the sun: that one only moves along with the arm.
+#[test]
+fn a_train_that_turns_freely_moves() {
+    let text = r#"
+[mechanism]
+kind = "linkage"
+space = "plane"
+ground = "sun"
+joints = [
+    { name = "O", type = "R", of = ["sun", "arm"] },
+    { name = "P", type = "R", of = ["arm", "planet"] },
+    { name = "Q", type = "R", of = ["arm", "last"] },
+    { name = "S", type = "P", of = ["sun", "slide"], along = [1, 0] },
+    { name = "T", type = "P", of = ["slide", "last"], along = [0, 1] },
+    { name = "G", type = "gear", of = ["sun", "planet"], carrier = "arm", ratio = -2 },
+    { name = "H", type = "gear", of = ["planet", "last"], carrier = "arm", ratio = "-1/2" },
+]
+[mechanism.bodies]
+sun = { O = 0, S = 0 }
+arm = { O = 0, P = 4, Q = 8 }
+planet = { P = 0 }
+last = { Q = 0, T = 0 }
+slide = { S = 0, T = 0 }
+"#;
+    let answer = solved(text);
+    assert_eq!(
+        (answer.verdict.status, answer.verdict.self_motion),
+        (Status::SelfMotion, 1),
+        "{}",
+        answer.verdict.reason
+    );
+}
+
 /// A planet on an arm that is given: it turns by 1 - ratio times the arm's angle.
 #[test]
 fn a_planet_follows_its_arm() {
@@ -312,7 +395,8 @@ joint = "C"
 tan_half = 0
 "#;
     let answer = solved(text);
-    assert_eq!(answer.verdict.status, Status::Incomplete, "{}", answer.verdict.reason);
+    assert_eq!(answer.verdict.status, Status::SelfMotion, "{}", answer.verdict.reason);
+    assert_eq!(answer.verdict.self_motion, 1);
     assert!(answer.verdict.reason.contains("dimension 1"), "{}", answer.verdict.reason);
 }
 

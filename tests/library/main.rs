@@ -20,6 +20,7 @@ mod house;
 mod laws;
 mod linkage_accuracy;
 mod linkage_derive;
+mod linkage_files;
 mod linkage_proof;
 mod linkage_singular;
 mod linkage_sweep;
