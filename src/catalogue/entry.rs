@@ -190,7 +190,16 @@ impl Case {
 
     fn empty(line: usize) -> Self {
         let (expected, warnings) = (Expected::default(), Vec::new());
-        Self { pose: None, input: Vec::new(), legs_squared: None, typed: None, rounding: None, expected, warnings, line }
+        Self {
+            pose: None,
+            input: Vec::new(),
+            legs_squared: None,
+            typed: None,
+            rounding: None,
+            expected,
+            warnings,
+            line,
+        }
     }
 }
 

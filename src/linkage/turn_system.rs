@@ -69,7 +69,9 @@ impl TurnSystem {
             }
             rows.push(row);
         }
-        rows.iter_mut().for_each(|row| row.resize(kinds.len(), Gaussian::zero()));
+        for row in &mut rows {
+            row.resize(kinds.len(), Gaussian::zero());
+        }
         let solved = Echelon::of(rows, kinds.len());
         let (mut held, mut sums) = (Vec::new(), Vec::new());
         for (row, pivot) in solved.rows().iter().zip(solved.pivots()) {
