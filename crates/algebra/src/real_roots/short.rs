@@ -272,6 +272,27 @@ mod tests {
         }
     }
 
+    #[test]
+    fn the_highest_degrees_are_settled_as_by_the_general_search() {
+        // A congruential generator (Knuth).
+        let mut state = 1_u64;
+        let mut next = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            i64::try_from(state >> 50).unwrap() - (1 << 13)
+        };
+        let mut settled = 0;
+        for degree in (41..=HIGHEST).chain(41..=HIGHEST) {
+            let coefficients: Vec<Integer> = (0..=degree).map(|_| Integer::from(next())).collect();
+            let leads: Vec<(f64, i64)> = coefficients.iter().map(rough::leading).collect();
+            settled += usize::from(isolate(&leads, false, &|| coefficients.clone()).is_some());
+            let mut found = Univariate::new(coefficients.clone()).real_roots();
+            let mut expected = roots(&coefficients);
+            assert_eq!(found.len(), expected.len());
+            assert!(found.iter_mut().zip(&mut expected).all(|(a, b)| a.to_f64() == b.to_f64()));
+        }
+        assert!(settled > 10, "{settled}");
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(300))]
         /// Small coefficients have roots at corners of the grid, at 0 and at each other's negatives.
