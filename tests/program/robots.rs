@@ -499,7 +499,7 @@ fn an_irrational_twist_leaves_the_bound_of_a_wrist_proved() {
     let proved = ["proved", "geometry-bound-met"].map(str::to_owned);
     // The wrist of an arm whose third joint is held at 0.5 radian, as a twist and by `--lock`.
     assert_eq!(code(&["iiwa14", "--joints", "0.3, 0.7, -1.1, 0.4, 0.9, 0.2"]), proved);
-    assert_eq!(code(&["iiwa14_r820", "--lock", "3=0.5 rad", "--at", "300, 200, 600; 0.3, 0.2, 0.1"]), proved);
+    assert_eq!(code(&["iiwa14_r820", "--lock", "3=0.5 rad", "--at", "0.3, 0.2, 0.6; 0.3, 0.2, 0.1"]), proved);
 }
 
 #[test]

@@ -48,6 +48,19 @@ impl Default for Reading {
     }
 }
 
+impl Reading {
+    /// Returns the names of the units of lengths and of angles that are given without one.
+    #[must_use]
+    pub fn units(&self) -> [&'static str; 2] {
+        let length = match self.length.denom().to_u32() {
+            Some(100) => "centimetres",
+            Some(1000) => "millimetres",
+            _ => "metres",
+        };
+        [length, if self.degrees { "degrees" } else { "radians" }]
+    }
+}
+
 /// A real number of a file: its exact rational value, or a rational within 1e-17 (relative) of an irrational one and an
 /// enclosure of that.
 #[derive(Clone, Debug, PartialEq)]

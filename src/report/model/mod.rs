@@ -22,6 +22,7 @@ pub use synthesis::json as synthesis_json;
 use super::json::{kind, number};
 use super::number::counted;
 use super::table::paragraph;
+use crate::algebra::number::Reading;
 use crate::catalogue::entry::{Case, Design, Entry, Expected, InputValue, Kind, Source};
 use crate::catalogue::{Any, citation};
 use crate::kinematics::chain::Placement;
@@ -131,6 +132,10 @@ pub fn text(entry: &Entry) -> String {
     origin(&mut text, entry.source.as_ref(), entry.notes.as_deref());
     if entry.rounded {
         paragraph(&mut text, "exact: no; some numbers are irrational and rounded for exact work (--digits)");
+    }
+    let [length, angle] = entry.reading.units();
+    if [length, angle] != Reading::default().units() {
+        paragraph(&mut text, &format!("plain numbers of options: {length}, {angle}"));
     }
     text.push('\n');
     match &entry.design {

@@ -62,11 +62,12 @@ fn nothing_to_solve(mechanism: &str, entry: &Entry) -> String {
     let labels = document::labels(entry);
     let zeros = vec!["0"; labels.len()].join(",");
     let mut text = format!("{mechanism}: found nothing to solve, expected a pose; type next one of");
+    let [length, angle] = entry.reading.units();
     text += &format!(
-        "\n  looproot solve {mechanism} --at \"X,Y,Z; QW,QX,QY,QZ\"   the pose of the tool, metres, quaternion"
+        "\n  looproot solve {mechanism} --at \"X,Y,Z; QW,QX,QY,QZ\"   the pose of the tool, {length}, quaternion"
     );
     text += &format!(
-        "\n  looproot solve {mechanism} --joints \"{zeros}\"   the pose of these joints: {}",
+        "\n  looproot solve {mechanism} --joints \"{zeros}\"   the pose of these joints, {angle}: {}",
         labels.join(", ")
     );
     text += &format!("\n  looproot solve {mechanism} --poses poses.csv   many, with the header x,y,z,qw,qx,qy,qz");
