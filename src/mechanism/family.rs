@@ -179,7 +179,8 @@ impl Joints<'_> {
     }
 
     /// Whether a configuration is within the limits, to rounding.
-    fn is_inside(&self, q: &[f64]) -> bool {
+    #[must_use]
+    pub fn is_inside(&self, q: &[f64]) -> bool {
         let wide: Vec<[f64; 2]> = self.limits.iter().map(|[low, high]| [low - ROUNDING, high + ROUNDING]).collect();
         let q: Vec<Complex<f64>> = q.iter().copied().map(Complex::from).collect();
         within_limits(&q, self.variables, &wide)

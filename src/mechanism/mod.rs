@@ -106,6 +106,9 @@ pub struct Solution {
     pub solve_us: f64,
     /// The part that only an arm of few or many joints has, or one with a task or with held joints.
     pub arm: Option<ArmAnswer>,
+    /// The configuration of an arm that comes nearest to a pose where none is within the tolerance, and by how much it misses: of arms of
+    /// few joints the nearest one that the search met, of others see [`Mechanism::nearest`].
+    pub nearest: Option<(Vec<f64>, PoseError)>,
     /// The part that only a platform has.
     pub platform: Option<PlatformAnswer>,
 }
@@ -210,6 +213,21 @@ impl Mechanism {
             solution.verdict = unproved::not_denied(solution.verdict);
         }
         Ok(solution)
+    }
+
+    /// Returns the configuration of an arm that comes nearest to the pose of a case where least squares from places all over look for it,
+    /// and by how much it misses; a metre counts as much as a radian. `None` for other mechanisms, and for tasks that ask for less than
+    /// the pose.
+    #[must_use]
+    pub fn nearest(&self, case: &Case) -> Option<(Vec<f64>, PoseError)> {
+        let pose = case.pose.as_ref()?;
+        let (mut q, miss) = match &self.solver {
+            Solver::SingleLoop(solver) => solver.nearest(pose),
+            Solver::TaskArm(solver) => solver.nearest_of_all(pose),
+            Solver::OverconstrainedLoop(_) | Solver::Platform(_) => None,
+        }?;
+        self.turns.place(&mut q, 0.0);
+        Some((q, miss))
     }
 
     /// Solves one case of a sweep, whose proof is about all of its inputs together: `unreachable` may be unproved here.

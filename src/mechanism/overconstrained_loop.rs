@@ -239,6 +239,7 @@ impl OverconstrainedLoop {
         }
         Ok(Solution {
             arm: None,
+            nearest: None,
             families: Vec::new(),
             verdict,
             modes,

@@ -130,6 +130,7 @@ impl PreparedPlatform {
         let beyond = (!outside.is_empty()).then(|| beyond(&outside));
         Ok(Solution {
             arm: None,
+            nearest: None,
             families: families(assembly, verdict.status, verdict.self_motion, is_within),
             verdict,
             modes: modes.collect(),

@@ -12,6 +12,7 @@ use super::by_input::{ByInput, Prepared};
 use super::data::{Data, Modular, is_rational};
 use super::dependence::dependent;
 use super::exact_loop::{Question as ExactQuestion, SsDyadQuestion};
+use super::nearest::nearest_of_all;
 use super::unproved::{is_left_to_equations, is_settled, moving, not_moving, perhaps_near};
 use super::vicinity::Vicinity;
 use super::{FullMode, Solution};
@@ -35,7 +36,7 @@ use crate::kinematics::closed_loop::{
 use crate::kinematics::forward::Forward;
 use crate::kinematics::freedom::Freedom;
 use crate::kinematics::motion::{Motion, unit_near};
-use crate::kinematics::tolerance::Tolerance;
+use crate::kinematics::tolerance::{PoseError, Tolerance};
 use crate::solve::scalar::Extended;
 use crate::verdict::{Bound, Code, Proof, Status, Verdict, verdict};
 use num_complex::Complex;
@@ -193,6 +194,13 @@ impl SingleLoop {
         Ok(solution)
     }
 
+    /// Returns the configuration of an arm that comes nearest to a pose of all that the search finds.
+    pub(super) fn nearest(&self, pose: &Placement) -> Option<(Vec<f64>, PoseError)> {
+        let forward = self.forward.get_or_init(|| Forward::of(&self.chain)).as_ref()?;
+        let total = forward.variables().len();
+        nearest_of_all(forward, &vec![0.0; total], &(0..total).collect::<Vec<_>>(), &pose.float)
+    }
+
     /// Lists the solutions of one case.
     fn list(
         &self,
@@ -334,7 +342,7 @@ impl SingleLoop {
             vicinity.list(&near, tolerance, &mut modes, &mut families);
         }
         let warnings = case.warnings.clone();
-        Solution { arm: None, families, verdict, modes, warnings, prepare_us, solve_us, platform: None }
+        Solution { arm: None, nearest: None, families, verdict, modes, warnings, prepare_us, solve_us, platform: None }
     }
 
     /// The closing transformation of a case in f64.
@@ -720,6 +728,7 @@ impl Question<'_> {
 fn exact_solution(case: &Case, verdict: Verdict, modes: Vec<FullMode>, prepare_us: f64, start: Instant) -> Solution {
     Solution {
         arm: None,
+        nearest: None,
         families: Vec::new(),
         verdict,
         modes,

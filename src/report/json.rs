@@ -113,7 +113,7 @@ impl Serialize for Answer<'_> {
         map.serialize_entry("case", &self.number)?;
         map.serialize_entry("asked", &Asked(self.case))?;
         map.serialize_entry("verdict", &Judged(solution))?;
-        if let Some((q, miss)) = solution.arm.as_ref().and_then(|arm| arm.nearest.as_ref()) {
+        if let Some((q, miss)) = &solution.nearest {
             let q: Value = q.iter().map(|x| number(*x)).collect();
             map.serialize_entry("nearest", &json!({ "q": q, "error": Miss(miss) }))?;
         }

@@ -53,6 +53,12 @@ pub fn short(x: f64, decimals: usize) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
+/// A number in three digits: `4.12`, `0.00316`, `1e-7`.
+#[must_use]
+pub fn three_digits(x: f64) -> String {
+    digits(format!("{x:.2e}").parse::<f64>().unwrap_or(x))
+}
+
 /// A number in at most 15 digits: `0.1`, `-1.25e-7`.
 #[must_use]
 pub fn digits(x: f64) -> String {
@@ -95,6 +101,7 @@ mod tests {
         assert_eq!(digits(-2.0), "-2");
         assert_eq!(digits(1.0 / 3.0), "0.333333333333333");
         assert_eq!(digits(1.25e-7), "1.25e-7");
+        assert_eq!([4.1234, 0.0031623, 0.0].map(three_digits), ["4.12", "0.00316", "0"]);
     }
 
     #[test]

@@ -59,6 +59,9 @@ fn part(part: &Part) -> Value {
 /// Adds the poses of the bodies to the real modes and to the samples of the families of one result.
 pub fn pose_result(result: &mut Value, stage: &Stage) {
     each(&mut result["modes"], |mode| pose(mode, stage));
+    if let Some(nearest) = result.get_mut("nearest") {
+        pose(nearest, stage);
+    }
     each(&mut result["families"], |family| {
         pose(&mut family["sample"], stage);
         each(&mut family["samples"], |sample| pose(sample, stage));

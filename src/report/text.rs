@@ -1,13 +1,13 @@
 //! Solutions for a human: the verdict first, then the modes, then why, then what to beware of.
 
 use super::model::case_noun;
-use super::number::{at_most, counted, duration, magnitude, short};
+use super::number::{at_most, counted, duration, magnitude, short, three_digits};
 use super::table::{Columns, paragraph};
 use crate::catalogue::entry::{Case, Entry, InputValue, Kind};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::platform_limits::listed;
-use crate::mechanism::{Family, FullMode, PoseError, Solution};
+use crate::mechanism::{Family, FullMode, Joints, PoseError, Solution};
 use crate::verdict::{Code, Proof, Status};
 use num_complex::Complex;
 use std::fmt::Write;
@@ -195,6 +195,9 @@ fn remarks(entry: &Entry, solution: &Solution, view: &View) -> String {
     if solution.verdict.status != Status::Incomplete && solution.verdict.status != Status::Unsupported {
         paragraph(&mut text, &format!("why: {}", solution.verdict.reason));
     }
+    if let Some((q, miss)) = &solution.nearest {
+        paragraph(&mut text, &nearest(entry, q, miss));
+    }
     if let Some(platform) = &solution.platform {
         paragraph(&mut text, &format!("route: {}", platform.route));
     }
@@ -205,6 +208,11 @@ fn remarks(entry: &Entry, solution: &Solution, view: &View) -> String {
         let fate = if view.drop_outside_limits && outside > 0 { ", the others are not listed" } else { "" };
         if real > 0 {
             let _ = writeln!(text, "within them: {} of {}{fate}", real - outside, counted(real, "real solution"));
+        }
+        let inside = inside(entry, &solution.families);
+        if !inside.is_empty() {
+            let within = inside.iter().filter(|is_inside| **is_inside).count();
+            let _ = writeln!(text, "within them: {within} of {}", counted(solution.families.len(), "family"));
         }
     }
     let hidden = solution.modes.iter().filter(|m| !m.real).count();
@@ -286,6 +294,17 @@ pub fn labelled(entry: &Entry) -> Vec<(String, Variable)> {
     super::document::labels(entry).into_iter().zip(variables.iter().map(|own| own.variable)).collect()
 }
 
+/// Returns the line on the configuration that comes nearest to a pose that nothing reaches.
+fn nearest(entry: &Entry, q: &[f64], miss: &PoseError) -> String {
+    let value = |(value, (name, variable)): (&f64, (String, Variable))| match variable {
+        Variable::Rotation => format!("{name} {} deg", short(value.to_degrees(), 4)),
+        Variable::Translation => format!("{name} {} m", short(*value, 6)),
+    };
+    let values: Vec<String> = q.iter().zip(labelled(entry)).map(value).collect();
+    let (position, orientation) = (three_digits(miss.position), three_digits(miss.orientation.to_degrees()));
+    format!("nearest found: {}; it misses the pose by {position} m and {orientation} deg", values.join(", "))
+}
+
 /// The name of every joint variable and what it measures: `q1`, ..., of a C joint `q3` and `d3`, of a U joint `q3z` and `q3x`.
 #[must_use]
 pub fn variables(chain: &Chain) -> Vec<(String, Variable)> {
@@ -324,10 +343,14 @@ fn families(entry: &Entry, families: &[Family]) -> Columns {
     if is_near {
         header.push("distance".to_owned());
     }
-    let mut table = Columns::new(&header, &["family", "moving"]);
+    let inside = inside(entry, families);
+    if !inside.is_empty() {
+        header.push("in limits".to_owned());
+    }
+    let mut table = Columns::new(&header, &["family", "moving", "in limits"]);
     let names: Vec<String> =
         entry.chain().map(variables).unwrap_or_default().into_iter().map(|(name, _)| name).collect();
-    for family in families {
+    for (index, family) in families.iter().enumerate() {
         let moving: Vec<&str> = family.moving.iter().filter_map(|at| names.get(*at)).map(String::as_str).collect();
         let kind = match family.dimension {
             1 => "curve".to_owned(),
@@ -340,9 +363,20 @@ fn families(entry: &Entry, families: &[Family]) -> Columns {
         if is_near {
             row.push(if family.distance > 0.0 { at_most(family.distance) } else { "0".to_owned() });
         }
+        row.extend(inside.get(index).map(|is_inside| if *is_inside { "yes" } else { "no" }.to_owned()));
         table.row(row);
     }
     table
+}
+
+/// Whether every family has a configuration within the joint limits; empty without limits, and for platforms.
+fn inside(entry: &Entry, families: &[Family]) -> Vec<bool> {
+    if entry.chain().is_none() || entry.limits.is_empty() {
+        return Vec::new();
+    }
+    let variables: Vec<Variable> = labelled(entry).into_iter().map(|(_, variable)| variable).collect();
+    let joints = Joints { variables: &variables, limits: &entry.limits };
+    families.iter().map(|family| joints.is_inside(&family.sample)).collect()
 }
 
 /// The modes, one a row; columns that would say nothing are left out.

@@ -1,6 +1,7 @@
 //! The table of a page: a row for every mode, or for every branch.
 
 use super::tracks::{Kind, Track, is_path, is_sweep, list, shown, turns};
+use crate::report::number::three_digits;
 use crate::report::picture::escaped;
 use serde_json::Value;
 use std::fmt::Write;
@@ -45,7 +46,7 @@ pub(super) fn table(document: &Value, tracks: &[Track<'_>]) -> String {
 
 /// Modes are listed, and the branches of a sweep; those of a path have buttons.
 fn is_listed(document: &Value, track: &Track<'_>) -> bool {
-    track.kind == Kind::Mode || track.kind == Kind::Branch && is_sweep(document)
+    matches!(track.kind, Kind::Mode | Kind::Nearest) || track.kind == Kind::Branch && is_sweep(document)
 }
 
 fn written(caption: &str, heads: &[String], rows: &[(Option<usize>, String, Vec<Cell>)]) -> String {
@@ -154,8 +155,19 @@ fn of_modes(document: &Value, listed: &[(usize, &Track<'_>)]) -> String {
         (Some(*index), class.to_owned(), cells)
     };
     let rows: Vec<_> = listed.iter().map(row).collect();
-    let noun = if document["kind"] == "arm" { "Inverse-kinematics solutions" } else { "Assembly modes" };
-    written(noun, &heads, &rows)
+    let noun = match listed {
+        [(_, Track { kind: Kind::Nearest, source, .. })] => nearest(&source["error"]),
+        _ if document["kind"] == "arm" => "Inverse-kinematics solutions".to_owned(),
+        _ => "Assembly modes".to_owned(),
+    };
+    written(&noun, &heads, &rows)
+}
+
+/// The caption of the table of a pose that nothing reaches.
+fn nearest(error: &Value) -> String {
+    let part = |key: &str, scale: f64| three_digits(error[key].as_f64().unwrap_or(0.0) * scale);
+    let (position, orientation) = (part("position", 1.0), part("orientation", 1f64.to_degrees()));
+    format!("The nearest configuration found misses the pose by {position} m and {orientation}\u{b0}")
 }
 
 fn condition(value: &Value) -> Cell {

@@ -23,6 +23,8 @@ pub(super) struct Track<'a> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     Mode,
+    /// The configuration of an arm that comes nearest to a pose which nothing reaches.
+    Nearest,
     Family,
     Branch,
     Motion,
@@ -31,7 +33,8 @@ pub(super) enum Kind {
 impl Kind {
     fn word(self) -> &'static str {
         match self {
-            Self::Mode => "mode",
+            // It is chosen and drawn as a mode.
+            Self::Mode | Self::Nearest => "mode",
             Self::Family => "family",
             Self::Branch => "branch",
             Self::Motion => "motion",
@@ -61,6 +64,11 @@ pub(super) fn tracks(document: &Value) -> Vec<Track<'_>> {
         for mode in list(result, "modes") {
             let name = mode["id"].as_u64().map_or_else(String::new, |id| id.to_string());
             tracks.push(Track { name, kind: Kind::Mode, case, source: mode, frames: vec![mode], inputs: None });
+        }
+        let nearest = &result["nearest"];
+        if nearest.is_object() {
+            let (name, frames) = ("nearest".to_owned(), vec![nearest]);
+            tracks.push(Track { name, kind: Kind::Nearest, case, source: nearest, frames, inputs: None });
         }
         for (index, family) in list(result, "families").iter().enumerate() {
             let samples = list(family, "samples");

@@ -8,7 +8,7 @@ use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::screws::VirtualJoint;
 use crate::kinematics::task::Task;
 use crate::kinematics::tolerance::{PoseError, Tolerance};
-use crate::mechanism::nearest::nearest;
+use crate::mechanism::nearest::{nearest, nearest_of_all};
 use crate::mechanism::{ArmAnswer, Family, FullMode, Solution};
 use crate::verdict::{Code, Proof, Status};
 use std::f64::consts::TAU;
@@ -40,7 +40,7 @@ impl TaskArm {
         let within = tolerance.angle.max(tolerance.length / self.forward.reach().max(f64::MIN_POSITIVE));
         let is_regular = |found: &Found| found.mode.condition < CONDITION / within;
         let (mut best, mut none) = (None::<Solution>, None::<Solution>);
-        let rank = |own: &Solution| (own.modes.len(), is_answer(own), shows_nearest(own));
+        let rank = |own: &Solution| (own.modes.len(), is_answer(own), own.nearest.is_some());
         let take = |judged: Solution, best: &mut Option<Solution>| {
             if best.as_ref().is_none_or(|best| rank(&judged) > rank(best)) {
                 *best = Some(judged);
@@ -84,7 +84,7 @@ impl TaskArm {
                 break;
             }
         }
-        let says_more = |best: &mut Solution| is_listed(best) || is_answer(best) && shows_nearest(best);
+        let says_more = |best: &mut Solution| is_listed(best) || is_answer(best) && best.nearest.is_some();
         let known = best.take_if(says_more).or(none).or(best);
         known.ok_or_else(|| crate::error::Error::Unsupported("no choice of conditions is regular".to_owned()))
     }
@@ -168,9 +168,9 @@ impl TaskArm {
         let of = format!("{exact} of {total} solutions of {conditions} conditions{by} {are} of the pose");
         let also = if near > 0 { format!(", {near} more come within the tolerance") } else { String::new() };
         verdict.reason = format!("{of}{also}; of the conditions: {}", verdict.reason);
-        let nearest = if listed.is_empty() { closest } else { None };
+        solution.nearest = if listed.is_empty() { closest } else { None };
         solution.modes = listed;
-        solution.arm = Some(ArmAnswer { conditions: conditions_of(filled), nearest });
+        solution.arm = Some(ArmAnswer { conditions: conditions_of(filled) });
         solution
     }
 
@@ -197,8 +197,25 @@ impl TaskArm {
             let miss = self.task.miss(&self.forward.pose(&start), &pose.float);
             return Some((start, miss));
         }
-        let moving: Vec<usize> = (0..start.len()).filter(|k| self.held.iter().all(|(held, _)| held != k)).collect();
-        Some(nearest(&self.forward, &start, &moving, &pose.float, tolerance))
+        Some(nearest(&self.forward, &start, &self.free_joints(), &pose.float, tolerance))
+    }
+
+    /// Returns the configuration that comes nearest to a pose of all that the search finds; `None` for a task that asks for less.
+    pub(crate) fn nearest_of_all(&self, pose: &Placement) -> Option<(Vec<f64>, PoseError)> {
+        if self.task != Task::Pose {
+            return None;
+        }
+        let mut start = vec![0.0; self.forward.variables().len()];
+        for (joint, held) in &self.held {
+            start[*joint] = held.value();
+        }
+        nearest_of_all(&self.forward, &start, &self.free_joints(), &pose.float)
+    }
+
+    /// The joints that are not held.
+    fn free_joints(&self) -> Vec<usize> {
+        let total = self.forward.variables().len();
+        (0..total).filter(|k| self.held.iter().all(|(held, _)| held != k)).collect()
     }
 
     /// Returns whether a configuration differs from a mode.
@@ -258,11 +275,6 @@ impl TaskArm {
 /// Whether an answer lists a configuration.
 fn is_listed(own: &Solution) -> bool {
     !own.modes.is_empty() || !own.families.is_empty()
-}
-
-/// Whether an answer says which configuration is nearest to the pose.
-fn shows_nearest(own: &Solution) -> bool {
-    own.arm.as_ref().is_some_and(|arm| arm.nearest.is_some())
 }
 
 /// Whether a list is one that its verdict is sure of.

@@ -34,8 +34,6 @@ const OF_FEW: Tolerance = Tolerance { length: 1e-6, angle: 1e-6 };
 pub struct ArmAnswer {
     /// The conditions of the pose that the verdict is about; none where it is about the whole task.
     pub conditions: Vec<String>,
-    /// The configuration that comes nearest where none is within the tolerance, and by how much it misses.
-    pub nearest: Option<(Vec<f64>, PoseError)>,
 }
 
 /// An arm, prepared for all its poses.

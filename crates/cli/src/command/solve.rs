@@ -108,7 +108,8 @@ pub fn run_to(options: &SolveOptions, open: impl FnOnce() -> Result<Output, Faul
             let listed = wanted.map(Job::Listed);
             let jobs = listed.chain((1..).zip(rows.into_iter().flatten()).map(|(number, row)| Job::Row(number, row)));
             let lines = report.lines(options);
-            let work = Work { options, entry: &entry, mechanism: &mechanism, reader, lines };
+            let is_alone = total == Some(1);
+            let work = Work { options, entry: &entry, mechanism: &mechanism, reader, lines, is_alone };
             let exit = work.solve(jobs, total, &mut report)?;
             solved = Some(Prepared::new(mechanism, demand, &entry));
             exit
@@ -181,6 +182,8 @@ struct Work<'a> {
     mechanism: &'a Mechanism,
     reader: Option<PoseRows<'a>>,
     lines: Option<Lines>,
+    /// Whether one case was asked for: where nothing reaches its pose, what comes nearest is worth the search.
+    is_alone: bool,
 }
 
 /// What is needed to write the JSON of an answer on the thread that has found it.
@@ -276,7 +279,10 @@ impl<'a> Work<'a> {
     /// Solves one case.
     fn answer(&self, case: &Case, memory: &mut (Workspace, Assembly)) -> Result<Answer, Error> {
         let roots = if self.options.real { Roots::Real } else { Roots::All };
-        let solution = self.mechanism.solve(case, roots, &mut memory.0, &mut memory.1)?;
+        let mut solution = self.mechanism.solve(case, roots, &mut memory.0, &mut memory.1)?;
+        if self.is_alone && solution.modes.is_empty() && solution.families.is_empty() {
+            solution.nearest = solution.nearest.or_else(|| self.mechanism.nearest(case));
+        }
         let curve = if self.options.derivatives { Some(InputCurve::of(self.entry, case)?) } else { None };
         let derivatives = curve.map(|curve| solution.modes.iter().map(|mode| curve.derivatives(mode)).collect());
         Ok(Answer { solution, derivatives })
@@ -345,6 +351,7 @@ fn unsupported(error: &Error) -> Solution {
     let (modes, families) = (Vec::new(), Vec::new());
     Solution {
         arm: None,
+        nearest: None,
         verdict,
         modes,
         families,
