@@ -42,6 +42,22 @@ impl Forward {
         self.constants.iter().map(|constant| length(&constant.translation)).sum()
     }
 
+    /// Returns the distance that the links have to bridge to a pose and their length together, in metres, if the former is larger by more
+    /// than rounding and `slack`: no configuration reaches the pose then. `None` for chains with sliding joints.
+    #[must_use]
+    pub fn too_far(&self, wanted: &Motion<f64>, slack: f64) -> Option<(f64, f64)> {
+        let [base, links @ .., tool] = self.constants.as_slice() else { return None };
+        if self.variables.contains(&Variable::Translation) {
+            return None;
+        }
+        let ends = [base, wanted, tool].map(|motion| length(&motion.translation)).iter().sum::<f64>();
+        let links: f64 = links.iter().map(|link| length(&link.translation)).sum();
+        let gap = length(&base.inverse().then_after(wanted).then_after(&tool.inverse()).translation);
+        // A few dozen roundings, each by less than two units of the last place, and matrices that are rotations to as much.
+        let rounding = 1e-13 * (ends + links);
+        (gap > links + rounding + slack).then_some((gap, links))
+    }
+
     /// The pose of the tool at these joint values.
     #[must_use]
     pub fn pose(&self, q: &[f64]) -> Motion<f64> {

@@ -120,7 +120,7 @@ impl Postures<'_> {
             if count == 0 && !(block.way() < farthest) {
                 return None;
             }
-            let (error, turn) = (PoseError::between(&tool, self.wanted), turn(&tool, self.wanted));
+            let (error, turn) = (PoseError::between(&tool, self.wanted), tool.turn_to(self.wanted));
             for i in 0..3 {
                 let moved = (self.wanted.translation[i] - tool.translation[i]) / self.scale;
                 for (row, value, part) in [(i, turn[i], 0), (3 + i, moved, 1)] {
@@ -280,14 +280,4 @@ fn bent(screws: &[Screw; 6], k: usize, j: usize) -> Screw {
     } else {
         [[0.0; 3], cross(&screws[j][0], linear)]
     }
-}
-
-/// The rotation from one orientation to another, as a vector along its axis as long as its angle.
-fn turn(from: &Motion<f64>, to: &Motion<f64>) -> Vector<f64> {
-    let entry = |i: usize, j: usize| (0..3).map(|k| to.rotation[i][k] * from.rotation[j][k]).sum::<f64>();
-    let skew = [(2, 1), (0, 2), (1, 0)].map(|(i, j)| (entry(i, j) - entry(j, i)) / 2.0);
-    let sine = skew.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let cosine = ((0..3).map(|k| entry(k, k)).sum::<f64>() - 1.0) / 2.0;
-    let stretched = if sine > 0.0 { sine.atan2(cosine) / sine } else { 1.0 };
-    skew.map(|x| x * stretched)
 }

@@ -61,6 +61,8 @@ pub fn verdict(kind: Kind, solution: &Solution) -> String {
                 Kind::Platform => "no pose has legs of these lengths",
             };
             let found = match (found, kind) {
+                // An arm of seven joints has no number of complex ones.
+                (0, Kind::Arm) if verdict.code == Code::OutOfReach && solution.arm.is_some() => "all roots".to_owned(),
                 // A pose out of reach is known to be one without any root.
                 (0, Kind::Arm | Kind::Loop) if verdict.code == Code::OutOfReach => "at most 16 roots".to_owned(),
                 (0, _) => "0 roots".to_owned(),

@@ -291,6 +291,9 @@ impl<'a> Reader<'a> {
             "m" => Ok(Some(Unit::Metre)),
             "cm" => Ok(Some(Unit::Centimetre)),
             "mm" => Ok(Some(Unit::Millimetre)),
+            word @ ("pi" | "sqrt" | "sin" | "cos" | "tan") => {
+                Err(format!("`{word}` right behind a number; a product needs `*`, as in `2*{word}`"))
+            }
             word => Err(format!("unit `{}`, which is none of deg, rad, m, cm, mm", shortened(word))),
         }
     }

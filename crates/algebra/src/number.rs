@@ -763,6 +763,7 @@ mod tests {
             ("2 mm", "without unit"),
             ("sin(2 mm)", "`sin` of a length"),
             ("3*sin(30 + 10 deg)", "`30 + 10 deg`, a sum with one unit"),
+            ("2pi", "`pi` right behind a number; a product needs `*`, as in `2*pi`"),
             ("cos(40 deg", "not closed"),
             ("tan(40 degrees)", "unit `degrees`"),
             ("sin 40", "without an argument"),

@@ -146,6 +146,18 @@ impl Motion<f64> {
     pub fn over(&self, unit: f64) -> Self {
         Self { translation: self.translation.map(|x| x / unit), ..self.clone() }
     }
+
+    /// Returns the rotation from this orientation to another one, as a vector along its axis as long as its angle in radians; 0 for a
+    /// half turn, whose axis the skew part of a matrix does not show.
+    #[must_use]
+    pub fn turn_to(&self, other: &Self) -> Vector<f64> {
+        let entry = |i: usize, j: usize| (0..3).map(|k| other.rotation[i][k] * self.rotation[j][k]).sum::<f64>();
+        let skew = [(2, 1), (0, 2), (1, 0)].map(|(i, j)| (entry(i, j) - entry(j, i)) / 2.0);
+        let sine = skew.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let cosine = ((0..3).map(|k| entry(k, k)).sum::<f64>() - 1.0) / 2.0;
+        let stretched = if sine > 0.0 { sine.atan2(cosine) / sine } else { 1.0 };
+        skew.map(|x| x * stretched)
+    }
 }
 
 /// Returns the power of two nearest to a mean length, by which dividing costs no digit; 1 where there are no lengths.

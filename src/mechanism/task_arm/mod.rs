@@ -21,6 +21,7 @@ use crate::kinematics::tolerance::{PoseError, Tolerance};
 use choice::{Trial, conditions};
 use num_complex::Complex;
 use std::sync::OnceLock;
+use std::time::Instant;
 
 /// Largest number of free joints of an arm that is solved for a pose: one freedom is a family of curves.
 const MOST_FREE: usize = 7;
@@ -154,6 +155,7 @@ impl TaskArm {
         workspace: &mut Workspace,
         assembly: &mut Assembly,
     ) -> Result<Solution> {
+        let start = Instant::now();
         let mut with = Tools { roots, tolerance, workspace, assembly };
         let Some(pose) = &case.pose else { return Err(Error::Invalid("a case of an arm without pose".to_owned())) };
         // The loops have other joints than the arm.
@@ -171,12 +173,29 @@ impl TaskArm {
                 Solution { modes, arm: Some(ArmAnswer::default()), ..solution }
             }
             Plan::Filled(choices) => self.by_conditions(choices, case, pose, &mut with)?,
-            Plan::Redundant(more, ways) => self.redundant(*more, ways, case, pose, &mut with)?,
+            Plan::Redundant(more, ways) => {
+                let solution = match self.beyond(pose, tolerance.unwrap_or_default()) {
+                    Some(distance) => redundant::out_of_reach(case, distance),
+                    None => self.redundant(*more, ways, case, pose, &mut with)?,
+                };
+                Solution { solve_us: start.elapsed().as_secs_f64() * 1e6, ..solution }
+            }
         };
         if let (Some(joint), false) = (self.coaxial, matches!(self.plan, Plan::Redundant(..))) {
             redundant::free(&mut solution, joint);
         }
         Ok(solution)
+    }
+
+    /// Returns the distance to a pose and the length of all links together, in metres, where these are too short for every pose within the
+    /// tolerance. A task that leaves the orientation open is not asked.
+    fn beyond(&self, pose: &Placement, tolerance: Tolerance) -> Option<(f64, f64)> {
+        if self.task != Task::Pose {
+            return None;
+        }
+        // Another orientation moves the origin of the last link by so much.
+        let turned = tolerance.angle * self.forward.reach();
+        self.forward.too_far(&pose.float, tolerance.length + turned)
     }
 
     /// The solutions of a loop of six unknowns.

@@ -3,7 +3,7 @@
 use super::trace::Tracer;
 use super::{ArmAnswer, Found, Inner, TaskArm, Tools};
 use crate::algebra::number::{Angle, HalfTangent, Number};
-use crate::assembly::Roots;
+use crate::assembly::{Assembly, Roots};
 use crate::catalogue::entry::Case;
 use crate::error::{Error, Result};
 use crate::kinematics::chain::Placement;
@@ -220,12 +220,30 @@ fn moves(solution: &mut Solution, more: usize) {
     solution.arm = Some(ArmAnswer::default());
 }
 
+/// The answer where the links are too short.
+pub(super) fn out_of_reach(case: &Case, distance: (f64, f64)) -> Solution {
+    Solution {
+        arm: Some(ArmAnswer::default()),
+        nearest: None,
+        verdict: crate::verdict::out_of_reach(distance, &Assembly::default()),
+        modes: Vec::new(),
+        families: Vec::new(),
+        warnings: case.warnings.clone(),
+        prepare_us: 0.0,
+        solve_us: 0.0,
+        platform: None,
+    }
+}
+
 /// The answer where no choice of held joints reaches the pose: others may.
 fn nothing_found(mut solution: Solution, more: usize) -> Solution {
     let verdict = &mut solution.verdict;
     (verdict.status, verdict.proof, verdict.code) = (Status::Incomplete, Proof::None, Code::TooFew);
     (verdict.complex, verdict.real, verdict.certified, verdict.complex_complete) = (0, 0, 0, false);
-    verdict.reason = format!("not proved: no configuration was found with {more} joints held at some values");
+    verdict.reason = format!(
+        "not proved: no configuration was found with {more} joint{} held at some values",
+        if more == 1 { "" } else { "s" }
+    );
     solution.modes = Vec::new();
     solution.families = Vec::new();
     solution.arm = Some(ArmAnswer::default());

@@ -280,8 +280,8 @@ impl<'a> Work<'a> {
     fn answer(&self, case: &Case, memory: &mut (Workspace, Assembly)) -> Result<Answer, Error> {
         let roots = if self.options.real { Roots::Real } else { Roots::All };
         let mut solution = self.mechanism.solve(case, roots, &mut memory.0, &mut memory.1)?;
-        if self.is_alone && solution.modes.is_empty() && solution.families.is_empty() {
-            solution.nearest = solution.nearest.or_else(|| self.mechanism.nearest(case));
+        if self.is_alone && !solution.modes.iter().any(|mode| mode.real) && solution.families.is_empty() {
+            solution.nearest = self.mechanism.nearest(case).or(solution.nearest);
         }
         let curve = if self.options.derivatives { Some(InputCurve::of(self.entry, case)?) } else { None };
         let derivatives = curve.map(|curve| solution.modes.iter().map(|mode| curve.derivatives(mode)).collect());
