@@ -142,7 +142,10 @@ fn of_modes(document: &Value, listed: &[(usize, &Track<'_>)]) -> String {
             });
             cells.extend(values);
         }
-        cells.extend(has_condition.then(|| condition(&mode["condition"])));
+        // The nearest configuration has none.
+        let is_nearest = track.kind == Kind::Nearest;
+        let own = || if is_nearest { Cell::number(None, 0) } else { condition(&mode["condition"]) };
+        cells.extend(has_condition.then(own));
         if has_limits {
             let word =
                 mode["within_limits"].as_bool().map_or("", |is_within| if is_within { "within" } else { "outside" });

@@ -189,6 +189,15 @@ fn robots_reach_as_far_as_their_names_say() {
     }
 }
 
+/// Nothing shows the units of a robot that is typed by its name: lengths of options are metres for all of them, as in the documents.
+#[test]
+fn plain_lengths_of_robots_are_metres() {
+    for name in robot_names() {
+        let entry = builtin(&name, &Options::default()).unwrap();
+        assert_eq!(entry.reading.units()[0], "metres", "{name}");
+    }
+}
+
 /// The position of the tip in metres with all joints at zero, as the makers' drawings and manuals give it.
 #[test]
 fn robots_stand_at_zero_as_published() {

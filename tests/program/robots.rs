@@ -430,6 +430,27 @@ fn asked(path: &str, q: &[f64], units: &[&str]) -> Matrix {
 }
 
 #[test]
+fn a_pose_out_of_reach_is_answered_with_the_nearest_configuration() {
+    // The links of both arms are shorter than 1.3 m together, which proves it for the second one.
+    for (name, code) in [("puma560", "geometry-bound-met"), ("panda", "out-of-reach")] {
+        let pose = ["solve", name, "--at", "9, 0, 0; 1, 0, 0, 0"];
+        let output = run(&[&pose[..], &["--json"]].concat());
+        assert_eq!(output.status.code(), Some(3), "{name}");
+        let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let Value::Object(result) = &document["results"][0] else { panic!("{document}") };
+        assert_eq!((&result["verdict"]["proof"], &result["verdict"]["code"]), (&json!("proved"), &json!(code)), "{name}");
+        // The error is that of the configuration, and the arm is stretched.
+        let q: Vec<f64> = result["nearest"]["q"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
+        let reached = asked(name, &q, &vec!["rad"; q.len()]);
+        let apart = (reached[0][3] - 9.0).hypot(reached[1][3]).hypot(reached[2][3]);
+        let error = result["nearest"]["error"]["position"].as_f64().unwrap();
+        assert!((apart - error).abs() < 1e-9 && error > 7.7 && error < 8.3, "{name}: {error}, {apart}");
+        let text = String::from_utf8(run(&pose).stdout).unwrap();
+        assert!(text.contains("\nnearest found: q1 "), "{text}");
+    }
+}
+
+#[test]
 fn converted_arms_have_the_same_forward_kinematics() {
     let robots: [(&str, String); 4] = [
         ("puma560", "puma560".to_owned()),

@@ -91,6 +91,14 @@ fn complex_modes_are_listed_where_they_are_asked_for() {
 }
 
 #[test]
+fn a_pose_that_nothing_reaches_is_drawn_with_the_nearest_configuration() {
+    let (code, page) = run(&["view", "puma560", "--at", "5, 0, 0; 1, 0, 0, 0"]);
+    assert_eq!((code, rows(&page)), (3, 1));
+    assert!(body(&page).contains("The nearest configuration found misses the pose by 4."), "{}", body(&page));
+    assert!(body(&page).contains("<canvas"));
+}
+
+#[test]
 fn a_sweep_has_a_slider_a_path_for_every_branch_and_a_circle_for_every_limit() {
     let range = ["--from", "-pi", "--to", "pi", "--steps", "48"];
     let document = json(&run(&[&["sweep", "rrsrr", "--json"], &range[..]].concat()).1);
