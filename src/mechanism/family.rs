@@ -37,7 +37,7 @@ pub struct Shape {
     pub moving: Vec<usize>,
     /// Its largest distance from the requested pose.
     pub distance: f64,
-    /// Configurations: of a curve in their order along it, angles running on without jumps; else one.
+    /// Configurations: of a curve in their order along it, angles running on without jumps; else one, or some of a surface.
     pub points: Vec<Vec<f64>>,
     /// Whether the last configuration of a curve is the first one again.
     pub is_closed: bool,
@@ -60,7 +60,7 @@ impl Joints<'_> {
         let (at, all) = self.looked_at(shape, between);
         let family = |samples: Vec<Vec<f64>>| {
             let sample = self.best(&samples)?;
-            let samples = if samples.len() > 1 { samples } else { Vec::new() };
+            let samples = if samples.len() > 1 && shape.dimension == 1 { samples } else { Vec::new() };
             let (dimension, moving, distance) = (shape.dimension, shape.moving.clone(), shape.distance);
             Some(Family { dimension, moving, distance, sample, samples })
         };

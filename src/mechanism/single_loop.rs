@@ -250,6 +250,7 @@ impl SingleLoop {
         }
         let (mut verdict, solve_us) = fast.unwrap_or_else(|| question.answer(workspace, assembly));
         if roots == Roots::All
+            && !workspace.only_lists
             && is_left_to_equations(&verdict)
             && prepared.layout.spherical.is_none()
             && matches!(question.data(), Data::Rational)

@@ -19,7 +19,7 @@ pub struct Piece {
     pub dimension: usize,
     /// Marks the variables that move.
     pub moving: [bool; 7],
-    /// The points of a curve; of a surface one point.
+    /// The points of a curve; of a surface one point, or some that are spread over it.
     pub trace: Trace,
 }
 
@@ -51,6 +51,8 @@ const MOST_POINTS: usize = 500;
 const MOST_HALVINGS: usize = 40;
 /// A crossing this near, in parts of what counts as one, is where the value would be 0: what is left is its square.
 const NEXT_TO: f64 = 1e-2;
+/// Points taken across a surface along each of its curves: two neighbours are less than 20 degrees apart.
+const ACROSS: usize = 24;
 /// Pieces looked at for crossings: more are not known of any arm.
 const MOST_PIECES: usize = 16;
 
@@ -82,7 +84,7 @@ impl Rank {
 }
 
 impl Piece {
-    /// Returns a piece known by one point, or by two that are not neighbours.
+    /// Returns a piece known by one point, or by some that are not neighbours.
     fn at(dimension: usize, moving: [bool; 7], points: Vec<Point>) -> Self {
         Self { dimension, moving, trace: Trace { points, is_closed: false } }
     }
@@ -320,21 +322,44 @@ impl<'a> Explorer<'a> {
             .collect();
         // The largest freedom first, of the fewest joints.
         sort::by_key(&mut sets, |(set, freedom)| (std::cmp::Reverse(*freedom), set.count_ones()));
-        let mut chosen: Vec<usize> = Vec::new();
-        let mut found: Vec<Piece> = Vec::new();
+        let mut chosen: Vec<(usize, usize)> = Vec::new();
         for (set, dimension) in sets {
-            if chosen.iter().any(|other| other & set == *other || other & set == set) {
-                continue;
-            }
-            chosen.push(set);
-            let moving: [bool; 7] = std::array::from_fn(|j| set >> j & 1 == 1);
-            if dimension == 1 {
-                found.extend(self.curve_through(solution, &moving));
-            } else {
-                found.push(Piece::at(dimension, moving, vec![*solution]));
+            if !chosen.iter().any(|(other, _)| other & set == *other || other & set == set) {
+                chosen.push((set, dimension));
             }
         }
-        found
+        together(&chosen).iter().filter_map(|sets| self.moved_together(solution, sets)).collect()
+    }
+
+    /// The piece through a solution along which sets of joints move independently of each other, each with its freedom.
+    fn moved_together(&self, solution: &Point, sets: &[(usize, usize)]) -> Option<Piece> {
+        let marks = |set: usize| -> [bool; 7] { std::array::from_fn(|j| set >> j & 1 == 1) };
+        let mut all = Piece::at(0, [false; 7], vec![*solution]);
+        for (set, dimension) in sets {
+            let own = marks(*set);
+            let piece = match dimension {
+                1 => match self.curve_through(solution, &own) {
+                    Some(curve) => curve,
+                    None => continue,
+                },
+                _ => Piece::at(*dimension, own, vec![*solution]),
+            };
+            if all.dimension == 0 {
+                all = piece;
+                continue;
+            }
+            // The points of both, some of every curve: all that is asked of them is one within joint limits.
+            let some = |piece: &Piece| -> Vec<Point> {
+                let points = &piece.trace.points;
+                points.iter().step_by(points.len().div_ceil(ACROSS)).copied().collect()
+            };
+            let (ones, others) = (some(&all), some(&piece));
+            let joined = |one: &Point, other: &Point| std::array::from_fn(|j| if own[j] { other[j] } else { one[j] });
+            let points = ones.iter().flat_map(|one| others.iter().map(move |other| joined(one, other))).collect();
+            let moving = std::array::from_fn(|j| all.moving[j] || piece.moving[j]);
+            all = Piece::at(all.dimension + dimension, moving, points);
+        }
+        (all.dimension > 0).then_some(all)
     }
 
     /// The pieces that meet in a solution of a higher corank.
@@ -461,6 +486,33 @@ impl<'a> Explorer<'a> {
         }
         self.dimension_at(&here)
     }
+}
+
+/// Returns the sets of joints that move independently of each other, with their freedoms, as many of them together as do. Of two sets
+/// without a common joint that do not alternate round the loop, one stands between two neighbours of the other: what it does there
+/// amounts to nothing, and the other one does not see it.
+fn together(sets: &[(usize, usize)]) -> Vec<Vec<(usize, usize)>> {
+    let mut found: Vec<Vec<(usize, usize)>> = Vec::new();
+    for first in sets {
+        let mut own = vec![*first];
+        for other in sets {
+            if own.iter().all(|(set, _)| are_independent(*set, other.0)) {
+                own.push(*other);
+            }
+        }
+        let is_known = found.iter().any(|known| own.iter().all(|set| known.contains(set)));
+        if !is_known {
+            found.push(own);
+        }
+    }
+    found
+}
+
+/// Whether two sets of joints have no joint in common, and do not alternate round the loop.
+fn are_independent(one: usize, other: usize) -> bool {
+    let sides: Vec<bool> = (0..7).filter(|j| (one | other) >> j & 1 == 1).map(|j| one >> j & 1 == 1).collect();
+    let next = sides.iter().cycle().skip(1);
+    one & other == 0 && sides.iter().zip(next).filter(|(side, next)| side != next).count() <= 2
 }
 
 /// Returns by how many the screws outnumber the dimension of the algebra of motions that they span; `None` unless they do,

@@ -99,15 +99,11 @@ impl TaskArm {
         pose: &Placement,
         with: &mut Tools<'_>,
     ) -> Result<Solution> {
-        // A curve is what counts here: that its points are all solutions with a joint held need not be proved.
+        // A curve is what counts here: that its points are all solutions with a joint held need not be proved. Complex ones lead to curves
+        // that no held value meets, and to near configurations where rounding put the pose out of reach.
         let (lists, roots) = (std::mem::replace(&mut with.workspace.only_lists, true), with.roots);
-        with.roots = Roots::Real;
-        let mut answer = self.met(more, ways, case, pose, with);
-        // Where rounding put the pose out of reach, near configurations lie beside complex solutions.
-        if roots == Roots::All && answer.as_ref().is_ok_and(|solution| solution.families.is_empty()) {
-            with.roots = Roots::All;
-            answer = self.met(more, ways, case, pose, with);
-        }
+        with.roots = Roots::All;
+        let answer = self.met(more, ways, case, pose, with);
         (with.workspace.only_lists, with.roots) = (lists, roots);
         answer
     }
@@ -139,13 +135,16 @@ impl TaskArm {
                 }
                 any = any.or(Some(q));
             }
+            if let Some(tracer) = &mut tracer {
+                middles(&found).iter().for_each(|q| tracer.follow_beside(q));
+            }
             last = Some(solution);
         }
         let families = tracer.map_or_else(Vec::new, |tracer| tracer.families());
         match (last, any) {
             (Some(solution), Some(q)) if families.is_empty() => Ok(self.one_family(solution, q, pose, more)),
-            (Some(solution), Some(_)) => Ok(traced(solution, families)),
-            (Some(solution), None) => Ok(nothing_found(solution, more)),
+            (Some(solution), None) if families.is_empty() => Ok(nothing_found(solution, more)),
+            (Some(solution), _) => Ok(traced(solution, families)),
             (None, _) => {
                 Err(Error::UnsupportedMobility("the joint axes are dependent in every configuration".to_owned()))
             }
@@ -195,6 +194,15 @@ fn starts(solution: &Solution, found: &[Found]) -> Vec<(Vec<f64>, bool, bool)> {
     });
     let family = |family: &Family| (family.sample.clone(), family.distance > 0.0, true);
     modes.chain(solution.families.iter().map(family)).collect()
+}
+
+/// The real parts of complex solutions, of a conjugate pair once.
+fn middles(found: &[Found]) -> Vec<Vec<f64>> {
+    let is_first = |found: &&Found| {
+        let part = found.mode.q.iter().map(|value| value.im).find(|im| *im != 0.0);
+        !found.mode.real && part.is_some_and(|im| im > 0.0)
+    };
+    found.iter().filter(is_first).map(|found| found.mode.q.iter().map(|value| value.re).collect()).collect()
 }
 
 /// The answer with curves that were followed.

@@ -70,15 +70,36 @@ impl<'a> Tracer<'a> {
     /// Follows the families through a configuration, unless they are known. A configuration that only comes near the pose need
     /// not close exactly.
     pub(super) fn follow(&mut self, q: &[f64], is_near: bool) {
-        let start: Point = std::array::from_fn(|k| self.joints[k].map_or(0.0, |joint| q[joint]) / self.curve.unit(k));
-        let within = if is_near { self.within } else { CLOSES_WITHIN };
+        let start = self.point(q);
+        if !is_near {
+            self.follow_from(&start, CLOSES_WITHIN);
+        } else if let Some(start) = Explorer::new(&self.curve, self.within).nearest(&start) {
+            self.follow_from(&start, self.within);
+        }
+    }
+
+    /// Follows the families through the configuration of the pose to which the real part of a complex solution leads, if it leads to
+    /// one. A closed curve between two values of the held joint meets neither, and two solutions become real where that joint enters it:
+    /// before that, their real part is in the middle between them. From the middle of a small closed curve every step of Newton's
+    /// method leads outwards, to the curve itself.
+    pub(super) fn follow_beside(&mut self, q: &[f64]) {
+        if let Some(start) = Explorer::new(&self.curve, CLOSES_WITHIN).nearest(&self.point(q)) {
+            self.follow_from(&start, CLOSES_WITHIN);
+        }
+    }
+
+    fn point(&self, q: &[f64]) -> Point {
+        std::array::from_fn(|k| self.joints[k].map_or(0.0, |joint| q[joint]) / self.curve.unit(k))
+    }
+
+    /// Follows the families through a point that closes the loop within a residual, unless they are known.
+    fn follow_from(&mut self, start: &Point, within: f64) {
         let explorer = Explorer::new(&self.curve, within);
-        let Some(start) = (if is_near { explorer.nearest(&start) } else { Some(start) }) else { return };
-        let holds = |known: &Found| Explorer::new(&self.curve, known.within.max(within)).holds(&known.piece, &start);
+        let holds = |known: &Found| Explorer::new(&self.curve, known.within.max(within)).holds(&known.piece, start);
         if self.found.iter().any(holds) {
             return;
         }
-        for piece in explorer.pieces(&start) {
+        for piece in explorer.pieces(start) {
             let middle = piece.trace.points[piece.trace.points.len() / 2];
             let is_known =
                 |known: &Found| known.piece.dimension >= piece.dimension && explorer.holds(&known.piece, &middle);
