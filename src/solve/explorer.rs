@@ -551,3 +551,20 @@ fn bracket(a: &Vector6<f64>, b: &Vector6<f64>) -> Vector6<f64> {
     let (w, v) = (wa.cross(&wb), wa.cross(&vb) + va.cross(&wb));
     Vector6::new(w.x, w.y, w.z, v.x, v.y, v.z)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sets_of_joints_that_alternate_round_the_loop_do_not_move_together() {
+        // Joints 1 and 3, 5 and 7; 1 and 3 with 2 and 4; 1 and 7 stand beside each other, round the end.
+        let [one, other, between, round] = [0b000_0101, 0b101_0000, 0b000_1010, 0b100_0001];
+        assert!(are_independent(one, other) && are_independent(round, between));
+        assert!(!are_independent(one, between) && !are_independent(one, round));
+        assert_eq!(
+            together(&[(one, 1), (other, 1), (between, 2)]),
+            [vec![(one, 1), (other, 1)], vec![(between, 2), (other, 1)]]
+        );
+    }
+}

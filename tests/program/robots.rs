@@ -380,10 +380,12 @@ fn seven_joints_move_along_curves_within_the_limits() {
 
 #[test]
 fn singular_poses_of_seven_joints_have_their_families() {
-    // Stretched upwards, four axes are one line; with the second joint at 0 the first and the third are.
-    let cases: [(&str, &str, u64, &[u64]); 2] = [
+    // Stretched upwards, four axes are one line; with the second joint at 0 the first and the third are, with the sixth the fifth and the
+    // seventh: two pairs turn independently of each other.
+    let cases: [(&str, &str, u64, &[u64]); 3] = [
         ("iiwa7", "0, 0, 0, 0, 0, 0, 0", 3, &[1, 3, 5, 7]),
         ("panda", "20 deg, 0, -40 deg, -100 deg, 25 deg, 95 deg, 30 deg", 1, &[1, 3]),
+        ("sia5d", "95 deg, 0, -135 deg, -20 deg, 80 deg, 0, -65 deg", 2, &[1, 3, 5, 7]),
     ];
     for (robot, q, dimension, joints) in cases {
         let output = run(&["solve", robot, "--joints", q, "--jsonl"]);
@@ -399,6 +401,34 @@ fn singular_poses_of_seven_joints_have_their_families() {
             result["families"]
         );
         assert_eq!(result["verdict"]["self_motion"], json!(dimension), "{robot}");
+        let circle = |own: &&Value| own["dimension"] == json!(1) && own["joints"].as_array().unwrap().len() == 2;
+        let circles = result["families"].as_array().unwrap().iter().filter(circle).count();
+        assert!(dimension == 1 || circles == 0, "{robot}: {}", result["families"]);
+    }
+}
+
+/// Axes in general position, beside a configuration in which the screws of the joints have rank 5 and from which no curve leaves: the poses
+/// beside it are reached along curves so short that no joint passes a value at which it is held.
+#[test]
+fn a_short_self_motion_of_seven_joints_is_found() {
+    const ARM: &str = r#"{"title": "small", "units": {"length": "m", "angle": "deg"}, "mechanism": {"kind": "arm", "convention": "dh", "joints": [
+        {"type": "R", "a": -0.366, "alpha": 47.5, "d": 0.347}, {"type": "R", "a": -0.005, "alpha": 27.3, "d": -0.051},
+        {"type": "R", "a": -0.012, "alpha": -19.8, "d": 0.393}, {"type": "R", "a": 0.196, "alpha": 54.3, "d": -0.234},
+        {"type": "R", "a": 0.401, "alpha": -85.4, "d": -0.469}, {"type": "R", "a": 0.439, "alpha": -51, "d": -0.119},
+        {"type": "R", "a": -0.471, "alpha": -11.2, "d": -0.278}],
+        "limits": [[-120, 100], [-100, 100], [-170, 100], [-170, 100], [-170, 100], [-120, 170], [-120, 170]]},
+        "pose": [{"position": [0.3, 0.2, 0.1], "quaternion": [1, 0, 0, 0]}]}"#;
+    let path = file("small.json", ARM);
+    let cases =
+        [[-0.284, 0.177, -1.578, -0.841, 0.046, 0.774, 0.321], [-0.26, 0.157, -1.551, -0.842, 0.022, 0.778, 0.307]];
+    for planted in cases {
+        let q = planted.map(|value| format!("{value} rad")).join(", ");
+        let result = &lines(&run(&["solve", &path, "--joints", &q, "--jsonl"]))[0];
+        let families = result["families"].as_array().unwrap();
+        let samples = families.iter().flat_map(|family| family["samples"].as_array().unwrap());
+        let nearest = samples.map(|own| apart(&values(&own["q"]), &planted)).fold(f64::INFINITY, f64::min);
+        // Points of so short a curve are nearer to each other than a hundredth.
+        assert!(nearest < 0.01, "{planted:?}: {nearest}, {}", result["verdict"]);
     }
 }
 
