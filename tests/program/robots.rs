@@ -468,7 +468,11 @@ fn a_pose_out_of_reach_is_answered_with_the_nearest_configuration() {
         assert_eq!(output.status.code(), Some(3), "{name}");
         let document: Value = serde_json::from_slice(&output.stdout).unwrap();
         let Value::Object(result) = &document["results"][0] else { panic!("{document}") };
-        assert_eq!((&result["verdict"]["proof"], &result["verdict"]["code"]), (&json!("proved"), &json!(code)), "{name}");
+        assert_eq!(
+            (&result["verdict"]["proof"], &result["verdict"]["code"]),
+            (&json!("proved"), &json!(code)),
+            "{name}"
+        );
         // The error is that of the configuration, and the arm is stretched.
         let q: Vec<f64> = result["nearest"]["q"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
         let reached = asked(name, &q, &vec!["rad"; q.len()]);

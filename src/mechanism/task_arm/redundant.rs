@@ -3,6 +3,7 @@
 use super::trace::Tracer;
 use super::{ArmAnswer, Found, Inner, TaskArm, Tools};
 use crate::algebra::number::{Angle, HalfTangent, Number};
+use crate::algebra::sort;
 use crate::assembly::{Assembly, Roots};
 use crate::catalogue::entry::Case;
 use crate::error::{Error, Result};
@@ -10,7 +11,7 @@ use crate::kinematics::chain::Placement;
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::forward::Forward;
 use crate::kinematics::screws::Held;
-use crate::mechanism::{Family, Solution};
+use crate::mechanism::{Family, Joints, Solution};
 use crate::verdict::{Code, Proof, Status};
 use looproot_calculus::finite::finite;
 use nalgebra::DMatrix;
@@ -140,7 +141,10 @@ impl TaskArm {
             }
             last = Some(solution);
         }
-        let families = tracer.map_or_else(Vec::new, |tracer| tracer.families());
+        let mut families = tracer.map_or_else(Vec::new, |tracer| tracer.families());
+        // Those that the arm can run along stand first.
+        let joints = Joints { variables: self.forward.variables(), limits: &self.limits };
+        sort::by_key(&mut families, |family| !joints.is_inside(&family.sample));
         match (last, any) {
             (Some(solution), Some(q)) if families.is_empty() => Ok(self.one_family(solution, q, pose, more)),
             (Some(solution), None) if families.is_empty() => Ok(nothing_found(solution, more)),
