@@ -1,9 +1,10 @@
 """Mechanism files (equations/README.md): their cases as the data of certificates, with which those of a certificate are compared."""
 import functools
-import json
 import math
-import tomllib
 
+from flint import fmpq
+
+from documents import document_of
 from four_bars import four_bars
 from linkage_files import Planar
 from mechanism import KEYS, matrix
@@ -11,9 +12,9 @@ from motions import difference, dot
 from quantities import Refused, Unreadable, is_exact, items, number, require
 from rounded import rotation_near, rotation_of
 from sweep import system_of
-from units import HALF_TANGENT, UNITS, by_half_tangent, in_units, right_angle
+from units import UNITS, angle_text, by_half_tangent, number_text
 
-LARGEST = 64 << 20  # bytes of a mechanism file
+NARROW = fmpq(1, 2**280)  # irrational numbers are known to 384 bits, rotation matrices to 300
 FAULTS = (ArithmeticError, AttributeError, LookupError, MemoryError, RecursionError, SyntaxError, TypeError, ValueError)
 
 
@@ -25,20 +26,16 @@ class File:
         self.document, self.metre, self.radian = document, units.get("length", "m"), units.get("angle", "rad")
 
     def length(self, text):
-        return in_units(text, self.metre)
+        return number_text(text, self.metre)
 
-    def angle(self, table, key):
-        half = "tan_half" if key == "angle" else "tan_half_" + key
+    def angle(self, table, key, half):
         if half in table:
-            return "pi" if table[half] == "inf" else by_half_tangent(in_units(table[half], "m"))
-        text = table.get(key, "0")
-        if match := HALF_TANGENT.fullmatch(text):
-            return by_half_tangent(f"{match[1]}({match[2]})")
-        return right_angle(text, self.radian) or in_units(text, self.radian)
+            return "pi" if table[half] == "inf" else by_half_tangent(number_text(table[half]))
+        return angle_text(table.get(key, "0") if key == "theta0" else table[key], self.radian)
 
     def matrix(self, rows):
         *rows, last = items(rows, 4)
-        rotation = [[in_units(x, "m") for x in row[:3]] for row in rows]
+        rotation = [[*map(number_text, row[:3])] for row in rows]
         values = [[*map(number, row)] for row in rotation]
         if all(map(is_exact, values)):
             rotation = [map(str, row) for row in rotation_near(values)]
@@ -47,7 +44,7 @@ class File:
     def pose(self, table):
         if "matrix" in table:
             return self.matrix(table["matrix"])
-        quaternion = [number(in_units(x, "m")) for x in items(table["quaternion"], 4)]
+        quaternion = [number(number_text(x)) for x in items(table["quaternion"], 4)]
         require(is_exact(quaternion), "file: an irrational quaternion has no certificate")
         rows = zip(rotation_of(quaternion), items(table["position"], 3))
         return [[*map(str, row), self.length(x)] for row, x in rows] + [["0", "0", "0", "1"]]
@@ -62,33 +59,36 @@ class File:
             places = {} if joint["type"] == "P" else {"point": [*map(str, foot)]}
             return {"type": joint["type"], "axis": [*map(str, axis)], **places}
         a, alpha, d, *theta = KEYS[joint["type"]]
-        angles = {key: self.angle(joint, key) for key in (alpha, *theta)}
+        angles = {key: self.angle(joint, key, f"tan_half_{key}") for key in (alpha, *theta)}
         return {"type": joint["type"], a: self.length(joint[a]), d: self.length(joint.get(d, "0")), **angles}
+
+    def bond(self, bond):
+        """A bond of a ring of atoms, about itself: the twist is what is missing to half a turn at its atom."""
+        return {"type": "R", "a": "0", "alpha": angle_text(f"pi-({self.angle(bond, 'angle', 'tan_half_angle')})"), "d": self.length(bond["length"]), "theta0": "0"}
 
     def chain(self, mechanism):
         places = {key: self.matrix(mechanism[key]) for key in ("base", "home", "tool") if key in mechanism}
         if mechanism["convention"] == "screws":
             places.setdefault("home", [[str(int(i == j)) for j in range(4)] for i in range(4)])
+        if mechanism["convention"] == "bonds":
+            return {"kind": mechanism["kind"], "convention": "dh", "joints": [*map(self.bond, mechanism["bonds"])]}
         joints = [self.joint(joint, mechanism["convention"]) for joint in mechanism["joints"]]
         return {"kind": mechanism["kind"], "convention": mechanism["convention"], "joints": joints, **places}
 
     def input(self, given):
-        is_slide = "distance" in given
-        value = {"distance": self.length(given["distance"])} if is_slide else {"angle": self.angle(given, "angle")}
+        value = {"distance": self.length(given["distance"])} if "distance" in given else {"angle": self.angle(given, "angle", "tan_half")}
         return {"joint": int(given["joint"]), **value}
 
     def squares(self, legs, base, plate):
         """The squares of the legs, which may be given by a pose."""
         if "matrix" in legs or "quaternion" in legs:
-            pose = matrix(self.pose(legs))
-            a, b = ([[number(x) for x in point] for point in body] for body in (base, plate))
+            pose, a, b = matrix(self.pose(legs)), *([[number(x) for x in point] for point in body] for body in (base, plate))
             sides = [difference([dot(row, y) + row[3] for row in pose], x) for x, y in zip(a, b)]
             require(all(map(is_exact, sides)), "file: legs of an irrational pose have no certificate")
             return [str(dot(side, side)) for side in sides]
         if lengths := legs.get("lengths", legs.get("legs")):
             return [f"({text})*({text})" for text in map(self.length, lengths)]
-        squares = legs.get("squared", legs.get("legs_squared"))
-        return [f"({in_units(text, 'm')})*({UNITS[self.metre]})*({UNITS[self.metre]})" for text in squares]
+        return [f"({number_text(text)})*({UNITS[self.metre]})*({UNITS[self.metre]})" for text in legs.get("squared", legs.get("legs_squared"))]
 
     def cases(self, verb):
         """The data of every case, each as a function, as some have none."""
@@ -110,9 +110,10 @@ class File:
 
 def is_same(one, other):
     """Whether two systems have the same constants: rational ones are equal, of others balls overlap. A rational number is never the
-    same as one that is not known to be rational: it might be a convergent of it, for which other theorems hold."""
+    same as one that is not known to be rational: it might be a convergent of it, for which other theorems hold. A wide ball is no number."""
     shape = lambda system: (type(system), system.size, system.equations, system.kinds, system.spherical)
-    same = lambda x, y: x == y if is_exact((x, y)) else not is_exact([x]) and not is_exact([y]) and x.overlaps(y)
+    is_narrow = lambda x: not is_exact([x]) and x.rad() < NARROW * (1 + abs(x.mid()))
+    same = lambda x, y: x == y if is_exact((x, y)) else is_narrow(x) and is_narrow(y) and x.overlaps(y)
     return shape(one) == shape(other) and all(map(same, one.constants, other.constants))
 
 
@@ -120,11 +121,7 @@ def is_same(one, other):
 def systems(path, verb):
     """The closure equations of the cases of a mechanism file that a certificate can be about."""
     try:
-        with open(path, "rb") as file:
-            text = file.read(LARGEST).decode()
-        is_json = text.lstrip().startswith("{")
-        document = json.loads(text, parse_int=str, parse_float=str) if is_json else tomllib.loads(text, parse_float=str)
-        return [system for case in File(as_texts(document)).cases(verb) if (system := system_or_none(case))]
+        return [system for case in File(document_of(path)).cases(verb) if (system := system_or_none(case))]
     except OSError as error:
         raise Unreadable(f"{path}: {error.strerror}") from None
     except FAULTS as error:
@@ -136,13 +133,6 @@ def system_or_none(case):
         return system_of(case())
     except Refused:
         return None
-
-
-def as_texts(value):
-    """With every number as text."""
-    if isinstance(value, dict):
-        return {key: as_texts(own) for key, own in value.items()}
-    return list(map(as_texts, value)) if isinstance(value, list) else str(value)
 
 
 def is_about(system, path, verb):

@@ -88,11 +88,11 @@ def about_one_point(links):
 def of_linkage(file, given):
     """The data of a linkage of four bodies and four joints whose joint of this number runs."""
     planar = Planar(file)
-    joints, held = planar.joints(), file.document.get("input", [{}])[0]
+    held = file.document.get("input", [{}])[0]
+    joints, pairs = zip(*planar.pairs().items())
     require(len(joints) == 4 and given < 4 and "body" not in held, "file: no linkage of four joints that run")
     names = {held["joint"]} if "joint" in held else {*held.get("given", {})}
-    require(names <= {joints[given]["name"]}, "file: another joint is held")
-    pairs = [*map(planar.pair, joints)]
+    require(names <= {joints[given]}, "file: another joint is held")
     place = lambda k, body: dict(zip(pairs[k][1], pairs[k][2]))[body]
     order, bodies = round_loop(pairs, given, 1)
     sense = 1 if pairs[order[1]][0] == "R" else -1  # the other way round the input turns backwards

@@ -6,6 +6,7 @@ from flint import fmpq, fmpq_mat
 
 from mechanism import cos_sin
 from quantities import Refused, is_exact, number, require
+from units import number_text
 
 
 def plane(x, y):
@@ -14,7 +15,7 @@ def plane(x, y):
     return fmpq_mat([[x, -y], [y, x]])
 
 
-ONE = plane(1, 0)
+ZERO, ONE = plane(0, 0), plane(1, 0)
 
 
 def over_length(u, other):
@@ -61,6 +62,13 @@ def value(kind, given):
     return {key: str(own)}
 
 
+def bring(known, name, **points):
+    """Adds a body, under a name that no file can write if there is a body of this name."""
+    own = (name,) if name in known else name
+    known[own] = points
+    return own
+
+
 class Planar:
     """A mechanism file of a linkage. `file` has its units."""
 
@@ -92,27 +100,49 @@ class Planar:
                 joints.append({"name": name, "type": "R", "of": [of[0], other], "at": point})
         return joints
 
-    def pair(self, joint):
-        kind, of, at = joint["type"], joint["of"], joint.get("at", joint["name"])
-        require(kind in ("R", "P"), "file: only joints R and P of linkages have certificates")
-        names = at if isinstance(at, list) else [at, at]
-        points = [self.point(self.mechanism["bodies"][body][name]) for body, name in zip(of, names)]
-        along = joint.get("along")
-        lines = [] if kind == "R" else along if isinstance(along[0], list) else [along, along]
-        return kind, of, points, [plane(*map(number, line)) for line in lines]
+    def pairs(self):
+        """(type, bodies, points, directions) of the joints R and P by their names, with those that bars, legs and pins in slots are made of."""
+        known = {body: {name: self.point(own) for name, own in points.items()} for body, points in self.mechanism["bodies"].items()}
+        parts = [part for joint in self.joints() for part in self.parts(joint, known)]
+        pairs = {name: pair for name, *pair in parts}
+        require(len(pairs) == len(parts), "file: two joints have one name")
+        return pairs
+
+    def parts(self, joint, known):
+        """The pairs of one joint. A body that it brings has the name of the joint."""
+        name, kind, (a, b), at = joint["name"], joint["type"], joint["of"], joint.get("at", joint["name"])
+        places = at if isinstance(at, list) else [at, at]
+        p, q = (known[body][place] for body, place in zip((a, b), places))
+        if kind == "R":
+            return [(name, "R", (a, b), (p, q), [])]
+        if kind in ("P", "PR"):
+            along = joint["along"]
+            lines = [plane(*(number(number_text(x)) for x in line)) for line in (along if isinstance(along[0], list) else [along, along])]
+        if kind == "P":
+            return [(name, "P", (a, b), (p, q), lines)]
+        if kind == "PR":
+            pin = bring(known, name, pin=ZERO)
+            return [(name, "P", (a, pin), (p, ZERO), lines), (f"{name}.pin", "R", (pin, b), (ZERO, q), [])]
+        if kind == "RR":
+            end = self.point(joint["length"])
+            bar = bring(known, name, first=ZERO, second=end)
+            return [(f"{name}.first", "R", (a, bar), (p, ZERO), []), (f"{name}.second", "R", (bar, b), (end, q), [])]
+        require(kind == "RPR", "file: a joint of this type has no certificate")
+        lower, upper = bring(known, f"{name}.lower", end=ZERO), bring(known, f"{name}.upper", end=ZERO)
+        return [(f"{name}.first", "R", (a, lower), (p, ZERO), []), (name, "P", (lower, upper), (ZERO, ZERO), [ONE, ONE]),
+                (f"{name}.second", "R", (upper, b), (ZERO, q), [])]
 
     def given(self, kind, given):
         if kind == "P":
             return {"distance": self.file.length(given["distance"] if isinstance(given, dict) else given)}
-        cos, sin = cos_sin(self.file.angle(given if isinstance(given, dict) else {"angle": given}, "angle"))
+        cos, sin = cos_sin(self.file.angle(given if isinstance(given, dict) else {"angle": given}, "angle", "tan_half"))
         require(is_exact((cos, sin)), "file: an angle without a rational half-angle tangent has no certificate")
         return {"tan_half": "inf" if cos == -1 else str(sin / (1 + cos))}
 
     def case(self, values):
         require("body" not in values, "file: the place of a body has no certificate")
         own = {values["joint"]: values} if "joint" in values else {}
-        joints, pairs = self.joints(), [*map(self.pair, self.joints())]
-        names = [joint["name"] for joint in joints]
+        names, pairs = zip(*self.pairs().items())
         given = {names.index(name): value for name, value in {**values.get("given", {}), **own}.items()}
         return written(self.mechanism["ground"], pairs, {k: self.given(pairs[k][0], value) for k, value in given.items()})
 

@@ -1,18 +1,23 @@
-"""Numbers of mechanism files (equations/README.md) as expressions in metres and radians, in the form of certificates."""
+"""Expressions of mechanism files (equations/README.md) in metres and radians, in the form of certificates."""
+import ast
 import re
 
 from flint import fmpq
 
-from quantities import decimal, is_exact, number
+from exact import part_of_pi, rational
+from quantities import LONGEST, decimal, expect
 
 UNITS = {"deg": "pi/180", "rad": "1", "m": "1", "cm": "1/100", "mm": "1/1000"}
 PIECES = re.compile(r"([(),]|(?<![a-z])(?:deg|rad|mm|cm|m)\b)")
-HALF_TANGENT = re.compile(r"(-?)2\s*\*\s*atan\(([^()]*)\)")
-QUARTERS = re.compile(r"(?P<number>[+-]?\d{1,9}(?:\.\d{1,9})?)\s*(?P<deg>deg)?|(?P<sign>-?)(?:(?P<times>\d{1,9})\*)?pi(?:/(?P<part>[1-9]\d{0,8}))?", re.ASCII)
+# Digits may be separated by underscores; Python and the decimals of certificates want no zeros in front, and a digit before a point.
+DIGITS = [(re.compile(r"(?<=\d)_(?=\d)"), ""), (re.compile(r"(?<![\d.])0+(?=\d)"), ""), (re.compile(r"(?<!\d)(?=\.\d)"), "0"), (re.compile(r"(?<=\d)\.(?!\d)"), "")]
+FUNCTIONS = {"sqrt": 1, "cos": 1, "sin": 1, "tan": 1, "acos": 1, "asin": 1, "atan": 1, "atan2": 2}  # with their numbers of arguments
 
 
 def in_units(text, unit):
     """An expression in metres and radians; `unit` is that of an expression without one. A unit binds less tightly than a sum."""
+    for pattern, digits in DIGITS:
+        text = pattern.sub(digits, text)
     pieces = PIECES.split(text)
     starts, plain = [0], ""  # where the sums that are open begin
     for piece in pieces if any(own in UNITS for own in pieces[-2:]) else [*pieces, unit]:
@@ -27,18 +32,44 @@ def in_units(text, unit):
     return plain.strip()
 
 
+def number_text(text, unit="m"):
+    """A number as certificates write it: a rational one as such, another one as its expression."""
+    plain = in_units(text, unit)
+    own = evaluated(plain).rational
+    return plain if own is None else str(own)
+
+
+def angle_text(text, unit="rad"):
+    """An angle: by the tangent of its half if that is rational, another one as its expression."""
+    plain = in_units(text, unit)
+    half = evaluated(plain).half_tangent()
+    return plain if half is None else "pi" if half == "inf" else by_half_tangent(str(half))
+
+
 def by_half_tangent(text):
-    t = number(text)
-    if not is_exact([t]):
-        return f"2*atan({text})"
-    return f"-2*atan({-t})" if t < 0 else f"2*atan({t})"
+    """The angle with the tangent of its half, a number as certificates write it."""
+    return f"-2*atan({text[1:]})" if re.fullmatch(r"-[\d/]+", text) else f"2*atan({text})"
 
 
-def right_angle(text, unit):
-    """A multiple of a quarter turn written in degrees or as a fraction of pi; otherwise nothing."""
-    match = QUARTERS.fullmatch(text)
-    if not match or match["number"] and not match["deg"] and unit != "deg":
-        return None
-    of_pi = fmpq(2 * int(match["sign"] + (match["times"] or "1")), int(match["part"] or "1")) if not match["number"] else None
-    quarters = decimal(match["number"]) / 90 if match["number"] else of_pi
-    return ("0", "pi/2", "pi", "-pi/2")[int(quarters) % 4] if quarters.q == 1 else None
+def evaluated(text):
+    """The value of an expression without units."""
+    expect(len(text) <= LONGEST and text.isascii(), text, "an expression")
+    return value_of(ast.parse(text, mode="eval").body, text)
+
+
+def value_of(node, text):
+    match node:
+        case ast.Constant():
+            return rational(decimal(text[node.col_offset:node.end_col_offset]))
+        case ast.Name("pi"):
+            return part_of_pi(fmpq(1))
+        case ast.BinOp(left, sign, right):
+            one, other = value_of(left, text), value_of(right, text)
+            other = other.times(rational(fmpq(-1))) if isinstance(sign, ast.Sub) else other
+            return {ast.Add: one.plus, ast.Sub: one.plus, ast.Mult: one.times, ast.Div: one.over}[type(sign)](other)
+        case ast.UnaryOp(sign, operand):
+            return value_of(operand, text).times(rational(fmpq({ast.UAdd: 1, ast.USub: -1}[type(sign)])))
+        case ast.Call(ast.Name(name), arguments, []) if FUNCTIONS.get(name) == len(arguments):
+            first, *others = (value_of(argument, text) for argument in arguments)
+            return getattr(first, name)(*others)
+    expect(False, text, "an expression")

@@ -14,6 +14,7 @@ from closures import SLIDE, THREE_JOINTS, Platform, proved_modes
 from conditions import four_joints
 from curve import curve
 from distance import distance
+from documents import distinct
 from files import is_about
 from geometry import geometry
 from kernel import kernel
@@ -23,7 +24,7 @@ from real_zeros import real_zeros
 from short_loops import lengthened, own_modes
 from sweep import swept, system_of
 
-LARGEST = 128 << 20  # characters of a file: what is cut there is no JSON
+LARGEST = 128 << 20  # characters of a file
 GENERAL = {0: 16, 1: 16, 2: 8, 3: 2}  # solutions of six rotations and translations, by the number of translations
 
 
@@ -35,7 +36,7 @@ def check(certificate, file):
     verb = claim["verb"]
     require(verb in VERBS and items(proof), "claim: only answers of solve, derive, mobility, sweep and conditions with a proof are covered")
     system = system_of(data) if verb != "conditions" else None  # those are about no mechanism
-    require(not file or is_about(system, file, verb), "file: the data of the certificate are those of no case of the file")
+    require(file is None or is_about(system, file, verb), "file: the data of the certificate are those of no case of the file")
     found = {"verb": verb, "proof": "proved", **VERBS[verb](system, data, claim, modes, *proof)}
     plain = lambda value: json.dumps(value, sort_keys=True)  # where 1, 1.0 and true differ
     require(plain(found) == plain(claim), f"claim: found {plain(claim)[:200]}, where {plain(found)[:200]} is proved")
@@ -95,15 +96,11 @@ MOTIONS = {"general-bound": immobile, "eliminant": eliminant.immobile, "regular"
 VERBS = {"solve": solved, "derive": functools.partial(derived, solved), "mobility": moving, "sweep": swept, "conditions": four_joints}
 
 
-def distinct(pairs):
-    expect(len(dict(pairs)) == len(pairs), pairs, "each key of an object once")
-    return dict(pairs)
-
-
 def certificates(path):
     """The objects of a file, one behind the other."""
     with open(path, encoding="utf-8") as file:
-        text = file.read(LARGEST)
+        text = file.read(LARGEST + 1)
+    expect(len(text) <= LARGEST, "more", f"a file of at most {LARGEST} characters")
     decoder, space, at = json.JSONDecoder(object_pairs_hook=distinct), re.compile(r"\s*"), 0
     while (at := space.match(text, at).end()) < len(text):
         certificate, at = decoder.raw_decode(text, at)

@@ -12,6 +12,7 @@ import numpy as np
 from . import _core
 from ._answers import Document, Solutions, Sweep, of_document
 from ._arm import _text
+from ._certificate import Certificate, read
 from ._closed import _number
 
 
@@ -51,6 +52,14 @@ class Linkage:
         """All assembly modes with these values of joints, radians or metres, in place of those of the file or beside them;
         ``bodies`` of the answer says where every body stands."""
         return of_document(self._core.solve(self._given(input), False))
+
+    def certificate(self, *, input: Mapping[str, float] | None = None) -> Certificate:
+        """The proof of the answer to these values of joints, radians or metres, in place of those of the file or beside them.
+
+        It covers linkages in the plane with rational numbers; without a proof, and for the angles of most floats, whose half-angle tangent
+        is irrational, there is an UnsupportedError that says why.
+        """
+        return read(self._core.certificate(self._given(input)))
 
     def sweep(self, joint: str, start: float, end: float, steps: int = 360, *, trace: str | None = None) -> Sweep:
         """All branches while a joint runs from start to end; ``trace="BODY.POINT"`` follows a point."""

@@ -37,6 +37,11 @@ impl Linkage {
         python.detach(|| guarded(|| Ok(self.0.solve(&given, complex)?.to_string())))
     }
 
+    /// The certificate of the answer with these values of joints.
+    fn certificate(&self, python: Python<'_>, given: Vec<(String, f64)>) -> PyResult<String> {
+        python.detach(|| guarded(|| Ok(self.0.certificate(&given)?.to_string())))
+    }
+
     fn sweep(
         &self,
         python: Python<'_>,

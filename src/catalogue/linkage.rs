@@ -273,7 +273,8 @@ impl Reader<'_, '_> {
     }
 
     fn add(&mut self, body: Body) -> usize {
-        self.places.insert(body.name.clone(), self.bodies.len());
+        // A bar or a pin with the name of a body of the file does not take its place.
+        self.places.entry(body.name.clone()).or_insert(self.bodies.len());
         self.bodies.push(body);
         self.bodies.len() - 1
     }

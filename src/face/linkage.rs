@@ -9,6 +9,7 @@ use crate::error::{Error, Result};
 use crate::kinematics::joint::Variable;
 use crate::kinematics::linkage::Given;
 use crate::mobility::solve_or_move;
+use crate::report::certificate::certificate_of_linkage;
 use crate::report::linkage_sweep::{Asked, Traced};
 use crate::report::{linkage, linkage_derivation, linkage_mobility, linkage_sweep, space, sphere, sphere_sweep};
 use crate::sweep::{Range, sweep_linkage, sweep_sphere};
@@ -123,6 +124,23 @@ impl Linkage {
         };
         drawable(&mut document)?;
         Ok(document)
+    }
+
+    /// Returns the certificate of the answer with these values of joints in place of those of the file, or beside them, which
+    /// [`crate::verify`] and `verify/verify.py` check: docs/certificate.md.
+    ///
+    /// # Errors
+    /// As [`Linkage::solve`], and [`Error::Unsupported`] with the reason for an answer of which there is no certificate: of linkages in
+    /// the plane with rational numbers there are some.
+    pub fn certificate(&self, given: &[(String, f64)]) -> Result<Value> {
+        let none = |reason: &str| Error::Unsupported(format!("there is no certificate: {reason}"));
+        let Kind::Plane(file) = &self.file else {
+            return Err(none("linkages on the sphere and in space are not covered"));
+        };
+        let case = self.plane_case(file, given)?;
+        let asked = crate::linkage::assembly::Asked { complex: true, stop: &AtomicBool::new(false) };
+        let answer = solve_or_move(file, &case, asked)?;
+        certificate_of_linkage(file, 1, &case, &answer).map_err(|reason| none(&reason))
     }
 
     fn plane_case(&self, file: &LinkageFile, given: &[(String, f64)]) -> Result<LinkageCase> {

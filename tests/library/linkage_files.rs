@@ -50,3 +50,12 @@ fn bodies_joined_twice_at_a_point_are_refused() {
         assert!(found.starts_with("test.json:") && found.contains(message), "{found}");
     }
 }
+
+#[test]
+fn a_bar_with_the_name_of_a_body_does_not_take_its_place() {
+    let bar = r#", { "name": "c", "type": "RR", "of": ["f", "r"], "at": ["Z", "B"], "length": 4 }, { "name": "Z", "type": "R", "of": ["c", "x"] }"#;
+    let text = triangle(bar, "").replace(r#""r": { "B""#, r#""x": { "Z": 0 }, "r": { "B""#);
+    let file = read(&text).unwrap();
+    let last = file.linkage.joints.last().unwrap();
+    assert_eq!(file.linkage.bodies[last.of[0]].points.len(), 3, "the body c of the file, not the bar");
+}

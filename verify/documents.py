@@ -1,0 +1,30 @@
+"""Texts of files as documents: nothing may be cut, and no key may stand twice."""
+import json
+import tomllib
+
+from quantities import expect
+
+LARGEST = 64 << 20  # bytes of a mechanism file
+
+
+def document_of(path):
+    """A mechanism file, in TOML or JSON, with every number as text."""
+    with open(path, "rb") as file:
+        text = file.read(LARGEST + 1)
+    expect(len(text) <= LARGEST, "more", f"a file of at most {LARGEST} bytes")
+    text = text.decode("utf-8-sig")  # with or without a mark of the order of bytes
+    if text.lstrip().startswith("{"):
+        return as_texts(json.loads(text, parse_int=str, parse_float=str, object_pairs_hook=distinct))
+    return as_texts(tomllib.loads(text, parse_float=str))
+
+
+def distinct(pairs):
+    expect(len(dict(pairs)) == len(pairs), pairs, "each key of an object once")
+    return dict(pairs)
+
+
+def as_texts(value):
+    """With every number as text."""
+    if isinstance(value, dict):
+        return {key: as_texts(own) for key, own in value.items()}
+    return list(map(as_texts, value)) if isinstance(value, list) else str(value)
