@@ -8,6 +8,7 @@ from linkage_files import Planar, over_length
 from mechanism import system_of
 from motions import IDENTITY, column, dot, inverse, times
 from quantities import is_exact, require
+from spherical import of_sphere
 from sweep import written
 
 KINDS = ("RSSR", "RSSP", "RRRR", "RRRP", "RRPR")  # the joints from the input on, A and B in the middle; of the last one A is in a plane of the output
@@ -15,7 +16,8 @@ KINDS = ("RSSR", "RSSP", "RRRR", "RRRP", "RRPR")  # the joints from the input on
 
 def four_bars(file):
     """The data for every joint that may be the input, each as a function, as some have none."""
-    of = of_linkage if file.document["mechanism"]["kind"] == "linkage" else of_loop
+    kind, space = (file.document["mechanism"].get(key) for key in ("kind", "space"))
+    of = of_loop if kind != "linkage" else of_linkage if space != "sphere" else functools.partial(of_sphere, round_loop=round_loop)
     return [functools.partial(of, file, k) for k in range(8)]  # a loop RSSR has eight unknowns
 
 
@@ -88,7 +90,7 @@ def about_one_point(links):
 def of_linkage(file, given):
     """The data of a linkage of four bodies and four joints whose joint of this number runs."""
     planar = Planar(file)
-    held = file.document.get("input", [{}])[0]
+    held = (file.document.get("input") or [{}])[0]
     joints, pairs = zip(*planar.pairs().items())
     require(len(joints) == 4 and given < 4 and "body" not in held, "file: no linkage of four joints that run")
     names = {held["joint"]} if "joint" in held else {*held.get("given", {})}

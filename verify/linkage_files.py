@@ -69,6 +69,27 @@ def bring(known, name, **points):
     return own
 
 
+def joints_of(mechanism):
+    """The joints, those of shared points among them: of the first body that has a point with each other one."""
+    joints, bodies = mechanism["joints"], mechanism["bodies"]
+    if joints != "shared points":
+        return joints
+    joints, at = [], {}
+    for body in sorted(bodies, key=lambda body: body != mechanism["ground"]):  # the ground first
+        for point in bodies[body]:
+            at.setdefault(point, []).append(body)
+    for point, of in at.items():
+        number = 1
+        for other in of[1:]:
+            name = point if number == 1 else f"{point}{number}"
+            while number > 1 and name in at:
+                number += 1
+                name = f"{point}{number}"
+            number += 1
+            joints.append({"name": name, "type": "R", "of": [of[0], other], "at": point})
+    return joints
+
+
 class Planar:
     """A mechanism file of a linkage. `file` has its units."""
 
@@ -79,37 +100,17 @@ class Planar:
     def point(self, point):
         return plane(*(number(self.file.length(x)) for x in (point if isinstance(point, list) else [point, "0"])))
 
-    def joints(self):
-        joints, bodies = self.mechanism["joints"], self.mechanism["bodies"]
-        if joints != "shared points":
-            return joints
-        first = self.mechanism["ground"]
-        order, at = [first, *(body for body in bodies if body != first)], {}
-        for body in order:
-            for point in bodies[body]:
-                at.setdefault(point, []).append(body)
-        joints = []
-        for point, of in at.items():
-            number = 1
-            for other in of[1:]:
-                name = point if number == 1 else f"{point}{number}"
-                while number > 1 and name in at:
-                    number += 1
-                    name = f"{point}{number}"
-                number += 1
-                joints.append({"name": name, "type": "R", "of": [of[0], other], "at": point})
-        return joints
-
     def pairs(self):
         """(type, bodies, points, directions) of the joints R and P by their names, with those that bars, legs and pins in slots are made of."""
         known = {body: {name: self.point(own) for name, own in points.items()} for body, points in self.mechanism["bodies"].items()}
-        parts = [part for joint in self.joints() for part in self.parts(joint, known)]
+        parts = [part for joint in joints_of(self.mechanism) for part in self.parts(joint, known)]
         pairs = {name: pair for name, *pair in parts}
         require(len(pairs) == len(parts), "file: two joints have one name")
         return pairs
 
     def parts(self, joint, known):
         """The pairs of one joint. A body that it brings has the name of the joint."""
+        require(joint["type"] in ("R", "P", "PR", "RR", "RPR"), "file: a joint of this type has no certificate")
         name, kind, (a, b), at = joint["name"], joint["type"], joint["of"], joint.get("at", joint["name"])
         places = at if isinstance(at, list) else [at, at]
         p, q = (known[body][place] for body, place in zip((a, b), places))
@@ -127,7 +128,6 @@ class Planar:
             end = self.point(joint["length"])
             bar = bring(known, name, first=ZERO, second=end)
             return [(f"{name}.first", "R", (a, bar), (p, ZERO), []), (f"{name}.second", "R", (bar, b), (end, q), [])]
-        require(kind == "RPR", "file: a joint of this type has no certificate")
         lower, upper = bring(known, f"{name}.lower", end=ZERO), bring(known, f"{name}.upper", end=ZERO)
         return [(f"{name}.first", "R", (a, lower), (p, ZERO), []), (name, "P", (lower, upper), (ZERO, ZERO), [ONE, ONE]),
                 (f"{name}.second", "R", (upper, b), (ZERO, q), [])]
@@ -147,4 +147,4 @@ class Planar:
         return written(self.mechanism["ground"], pairs, {k: self.given(pairs[k][0], value) for k, value in given.items()})
 
     def cases(self):
-        return [functools.partial(self.case, values) for values in self.document.get("input", [{}])]
+        return [functools.partial(self.case, values) for values in self.document.get("input") or [{}]]

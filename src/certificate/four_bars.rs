@@ -2,13 +2,14 @@
 
 use super::chain::Around;
 use super::linkage::{mirrored, square};
+use super::spherical::data_of_turning_sphere;
 use super::sweep::{FourBar, Output};
 use crate::algebra::ring::Ring;
 use crate::catalogue::entry::{Design, Entry};
 use crate::catalogue::{Any, LinkageFile};
 use crate::kinematics::chain::{Geometry, JointKind};
 use crate::kinematics::joint::{JointVariable, Variable};
-use crate::kinematics::linkage::{Accuracy, Gaussian, Linkage, LinkageJoint, Pair};
+use crate::kinematics::linkage::{Accuracy, Gaussian, LinkageJoint, Pair};
 use crate::kinematics::motion::{Motion, dot};
 use rug::Rational;
 use serde_json::Value;
@@ -19,9 +20,9 @@ const KINDS: [&str; 5] = ["RSSR", "RSSP", "RRRR", "RRRP", "RRPR"];
 const OTHER: &str = "only loops RSSR and RSSP, four rotations about axes that are parallel or meet in one point, and three rotations with a \
                      slide in their plane are covered";
 /// The reason for other linkages.
-const OTHER_LINKAGE: &str = "only linkages of four bodies round one loop with one slide at most are covered";
+pub(super) const OTHER_LINKAGE: &str = "only linkages of four bodies round one loop with one slide at most are covered";
 /// The reason for irrational numbers.
-const IRRATIONAL: &str = "four-bars with irrational numbers are not covered";
+pub(super) const IRRATIONAL: &str = "four-bars with irrational numbers are not covered";
 
 type Links = [Motion<Rational>; 4];
 
@@ -163,14 +164,15 @@ pub fn data_of_turning_linkage(file: &LinkageFile, joint: usize) -> Result<Value
     if case.given.iter().any(|given| given.joint() != Some(joint)) {
         return Err("linkages with further given values are not covered".to_owned());
     }
-    if linkage.joints.len() != 4 || linkage.bodies.len() != 4 {
+    if linkage.bodies.len() != 4 {
         return Err(OTHER_LINKAGE.to_owned());
     }
-    let forwards = round_loop(linkage, joint, false).ok_or(OTHER_LINKAGE)?;
+    let of: Vec<[usize; 2]> = linkage.joints.iter().map(|joint| joint.of).collect();
+    let forwards = round_loop(&of, joint, false).ok_or(OTHER_LINKAGE)?;
     // The other way round the input turns backwards.
     let is_backwards = linkage.joints[forwards.0[1]].is_prismatic();
     let (order, [b, c, d, a]) =
-        if is_backwards { round_loop(linkage, joint, true).ok_or(OTHER_LINKAGE)? } else { forwards };
+        if is_backwards { round_loop(&of, joint, true).ok_or(OTHER_LINKAGE)? } else { forwards };
     let word: String =
         order.iter().map(|joint| if linkage.joints[*joint].is_prismatic() { 'P' } else { 'R' }).collect();
     if order.iter().any(|joint| linkage.joints[*joint].is_gear()) || !KINDS.contains(&word.as_str()) {
@@ -202,17 +204,17 @@ pub fn data_of_turning_linkage(file: &LinkageFile, joint: usize) -> Result<Value
     bar.written().ok_or_else(|| OTHER_LINKAGE.to_owned())
 }
 
-/// Returns the joints and bodies round one loop: first the second body of the input, or the first one.
-fn round_loop(linkage: &Linkage, input: usize, is_backwards: bool) -> Option<([usize; 4], [usize; 4])> {
-    let [from, to] = linkage.joints[input].of;
+/// Returns the joints and bodies round one loop of four joints, whose bodies are given: first the second body of the input, or the first one.
+pub(super) fn round_loop(joints: &[[usize; 2]], input: usize, is_backwards: bool) -> Option<([usize; 4], [usize; 4])> {
+    let [from, to] = *joints.get(input).filter(|_| joints.len() == 4)?;
     let (first, last) = if is_backwards { (to, from) } else { (from, to) };
     let (mut order, mut bodies) = (vec![input], vec![last]);
     for step in 0..3 {
         let body = bodies[step];
-        let mut next = (0..4).filter(|k| !order.contains(k) && linkage.joints[*k].of.contains(&body));
+        let mut next = (0..4).filter(|k| !order.contains(k) && joints[*k].contains(&body));
         let (Some(next), None) = (next.next(), next.next()) else { return None };
         order.push(next);
-        let [one, other] = linkage.joints[next].of;
+        let [one, other] = joints[next];
         bodies.push(if one == body { other } else { one });
     }
     let is_whole = bodies[3] == first && (0..4).all(|body| bodies.contains(&body));
@@ -237,6 +239,7 @@ pub(super) fn is_about(file: &Any, data: &Value) -> bool {
             (1..=joints).any(|joint| is_own(data_of_turning_loop(entry, joint)))
         }
         Any::Linkage(file) => (0..file.linkage.joints.len()).any(|joint| is_own(data_of_turning_linkage(file, joint))),
+        Any::Sphere(file) => (0..file.linkage.joints.len()).any(|joint| is_own(data_of_turning_sphere(file, joint))),
         _ => false,
     }
 }

@@ -38,7 +38,7 @@ pub(super) fn mirrored(z: &Gaussian) -> Gaussian {
     Gaussian { re: z.re.clone(), im: Rational::from(-&z.im) }
 }
 
-fn scaled(z: &Gaussian, factor: &Rational) -> Gaussian {
+pub(super) fn scaled(z: &Gaussian, factor: &Rational) -> Gaussian {
     Gaussian { re: Rational::from(&z.re * factor), im: Rational::from(&z.im * factor) }
 }
 

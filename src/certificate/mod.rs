@@ -32,6 +32,7 @@ mod real_zeros;
 mod reconstructed;
 mod record;
 mod refine;
+mod spherical;
 mod strict;
 mod sweep;
 
@@ -52,4 +53,5 @@ pub use polynomial::proof_of_polynomial;
 pub use reconstructed::proof_of_points;
 pub use record::{FORMAT, VERSION};
 pub use refine::{Near, balls, balls_of_linkage};
+pub use spherical::data_of_turning_sphere;
 pub use sweep::proof_of_sweep;

@@ -4,13 +4,13 @@ use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::Ring;
 use crate::assembly::{Assembly, Roots, Solver, Workspace};
 use crate::catalogue::entry::{Case, Design, Entry};
-use crate::catalogue::{LinkageCase, LinkageFile};
+use crate::catalogue::{LinkageCase, LinkageFile, SphereFile};
 use crate::certificate::{
     Ball, ChainClosure, Closed, FAMILIES, FORMAT, Fault, LinkageClosure, Listed, Near, VERSION, balls,
     balls_of_linkage, check, claim_of_families, closed, data_of, data_of_linkage, data_of_loop,
-    data_of_turning_linkage, data_of_turning_loop, proof_by_distance, proof_of, proof_of_kernel, proof_of_motion,
-    proof_of_own, proof_of_points, proof_of_polynomial, proof_of_real_list, proof_of_rest, proof_of_self_motion,
-    proof_of_sweep, proved_modes,
+    data_of_turning_linkage, data_of_turning_loop, data_of_turning_sphere, proof_by_distance, proof_of,
+    proof_of_kernel, proof_of_motion, proof_of_own, proof_of_points, proof_of_polynomial, proof_of_real_list,
+    proof_of_rest, proof_of_self_motion, proof_of_sweep, proved_modes,
 };
 use crate::conditions::four_bar::{self, FourBar};
 use crate::derivation::Derivation;
@@ -21,7 +21,7 @@ use crate::linkage::answer::LinkageAnswer;
 use crate::mechanism::{FullMode, Mechanism, Solution};
 use crate::mobility::Mobility;
 use crate::report::sweep::Swept;
-use crate::sweep::{LinkageSweep, Sweep};
+use crate::sweep::{AssemblySweep, LinkageSweep, SphereSweep, Sweep};
 use crate::verdict::Status;
 use num_complex::Complex;
 use rug::{Integer, Rational, ops::Pow};
@@ -327,11 +327,26 @@ pub fn certificate_of_sweep(entry: &Entry, swept: Swept, found: &Sweep) -> Resul
 /// # Errors
 /// A clause that says why there is none.
 pub fn certificate_of_linkage_sweep(file: &LinkageFile, found: &LinkageSweep) -> Result<Value, String> {
-    let circuits = found.branches.iter().map(|branch| branch.circuit).max().unwrap_or(0);
-    let counts = [found.branches.len(), circuits, found.limits.len()];
     let data = || data_of_turning_linkage(file, found.joint);
     let info = json!({ "program": PROGRAM, "name": file.heading.name, "title": file.heading.title });
-    of_turn(&info, (found.verdict.proof.is_proved(), found.is_full_turn), &data, counts)
+    of_turn(&info, (found.verdict.proof.is_proved(), found.is_full_turn), &data, counts(found))
+}
+
+/// Returns the certificate of all branches of a linkage on the sphere over a full turn of its input, which the checker of
+/// [`crate::certificate`] accepts.
+///
+/// # Errors
+/// A clause that says why there is none.
+pub fn certificate_of_sphere_sweep(file: &SphereFile, found: &SphereSweep) -> Result<Value, String> {
+    let data = || data_of_turning_sphere(file, found.joint);
+    let info = json!({ "program": PROGRAM, "name": file.heading.name, "title": file.heading.title });
+    of_turn(&info, (found.verdict.proof.is_proved(), found.is_full_turn), &data, counts(found))
+}
+
+/// Returns the numbers of branches, circuits and limit positions.
+fn counts<M>(found: &AssemblySweep<M>) -> [usize; 3] {
+    let circuits = found.branches.iter().map(|branch| branch.circuit).max().unwrap_or(0);
+    [found.branches.len(), circuits, found.limits.len()]
 }
 
 /// Returns the certificate of a sweep with so many branches, circuits and limit positions.

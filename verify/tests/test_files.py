@@ -207,6 +207,46 @@ def test_both_checkers_refuse_changed_files(written, tmp_path):
             assert answer.returncode == 2 or answer.returncode == 1 and "error" in answer.stderr or is_free(verb, text, other), (name, what, answer)
 
 
+HOOKE = """
+[mechanism]
+kind = "linkage"
+space = "sphere"
+ground = "house"
+joints = [
+    { name = "S0", type = "R", of = ["house", "in"], zero = [[0, 1, 0], [1, 0, 0]] },
+    { name = "F1", type = "R", of = ["in", "cross"] },
+    { name = "G1", type = "R", of = ["cross", "out"] },
+    { name = "S1", type = "R", of = ["out", "house"] },
+]
+[mechanism.bodies]
+house = { S0 = [1, 0, 0], S1 = ["3/5", "cos(asin(3/5))", 0] }
+in = { S0 = [0, 0, 1], F1 = [1, 0, 0] }
+cross = { F1 = ["sqrt(1)", 0, 0], G1 = [0, 1, 0] }
+out = { S1 = [0, 0, 1], G1 = [0, 1, 0] }
+[[input]]
+joint = "S0"
+tan_half = "1/3"
+"""
+
+
+@pytest.mark.parametrize("checker", CHECKERS)
+def test_a_spherical_four_bar_is_that_of_its_file(tmp_path, checker):
+    """A Hooke joint with its input measured from another direction, with other axes, or with another value held is another one."""
+    (tmp_path / "own").write_text(HOOKE)
+    run(LOOPROOT, "sweep", tmp_path / "own", *TURN, "-q", "--certificate", tmp_path / "certificate")
+    for name, text, code in (
+        ("own", HOOKE, 0), ("the value of the input", HOOKE.replace("1/3", "1/2"), 0), ("longer zero", HOOKE.replace("[[0, 1, 0]", "[[0, 2, 0]"), 0),
+        ("another zero", HOOKE.replace("[[0, 1, 0]", "[[0, 3, 4]"), 2), ("an irrational zero", HOOKE.replace("[[0, 1, 0]", "[[0, 1, 1]"), 2),
+        ("no zero", HOOKE.replace(", zero = [[0, 1, 0], [1, 0, 0]]", ""), 2), ("another axis", HOOKE.replace('"3/5", "cos(asin(3/5))"', '"5/13", "12/13"'), 2),
+        ("a cross askew", HOOKE.replace("G1 = [0, 1, 0] }\nout", 'G1 = ["3/5", "4/5", 0] }\nout'), 2), ("another input", HOOKE.replace('joint = "S0"', 'joint = "G1"'), 2),
+        ("in the plane", HOOKE.replace('"sphere"', '"space"'), 2),
+    ):
+        (tmp_path / "file").write_text(text)
+        answer = CHECKERS[checker](tmp_path / "certificate", "--file", tmp_path / "file")
+        # Linkages in space have other keys.
+        assert answer.returncode == code or name == "in the plane" and answer.returncode == 1, (name, answer)
+
+
 @pytest.mark.parametrize("checker", CHECKERS)
 def test_what_is_no_file_is_about_nothing(written, tmp_path, checker):
     """An empty name, a key that stands twice, and a file that is cut are no mechanism; a mark of the order of bytes is none of its text."""

@@ -546,7 +546,8 @@ def test_forged_linkages_are_refused(tmp_path, checker):
 SWEPT = {"overconstrained/planar_4r": {"1": (2, 2, 0), "3": (4, 2, 4)}, "overconstrained/spherical_4r": {"2": (2, 2, 0), "4": (4, 2, 4)},
          "overconstrained/slider_crank": {"1": (2, 2, 0), "2": (2, 2, 0), "3": (4, 2, 4)}, "overconstrained/hooke_rur": {"3": (4, 2, 4)},
          "linkage/watt_line": {"": (2, 1, 2)}, "linkage/chebyshev_line": {"": (4, 2, 4)}, "linkage/holditch": {"": (2, 2, 0)},
-         "linkage/crank_slider": {"": (2, 1, 2)}, "linkage/inverted_slider_crank": {"": (2, 2, 0)}}
+         "linkage/crank_slider": {"": (2, 1, 2)}, "linkage/inverted_slider_crank": {"": (2, 2, 0)},
+         "linkage/spherical_four_bar": {"": (4, 2, 4)}, "linkage/spherical_coupler_curve": {"": (2, 1, 2)}, "linkage/spherical_symmetric_curve": {"": (2, 1, 2)}}
 RSSR = """
 [mechanism]
 kind = "loop"
@@ -654,7 +655,7 @@ def test_sweeps_that_have_no_certificate_say_why(tmp_path):
     for entry, joint, turn, why in (
         ("linkage/coupler_cognate", "", "360 deg", "multiple real root"), ("linkage/level_four_bar", "", "360 deg", "half a turn"),
         ("linkage/watt_line", "", "90 deg", "full turns"), ("loop/rssr", "1", "360 deg", "not proved"), ("linkage/watt_1", "", "360 deg", "four bodies"),
-        ("overconstrained/bennett_a", "1", "360 deg", "only loops RSSR"), ("linkage/spherical_four_bar", "", "360 deg", "on the sphere"),
+        ("overconstrained/bennett_a", "1", "360 deg", "only loops RSSR"), ("linkage/spherical_watt", "", "360 deg", "four bodies"),
     ):
         answer = run(LOOPROOT, "sweep", f"equations/{entry}.toml", "--from", "0", "--to", turn, "--steps", "12", "-q",
                      "--certificate", tmp_path / "none", *(["--joint", joint] if joint else []))

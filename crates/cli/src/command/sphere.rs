@@ -1,6 +1,7 @@
 //! `looproot solve`, `looproot derive` and `looproot sweep` for linkages on the sphere.
 
 use super::arguments::{DeriveOptions, SolveOptions, SweepOptions};
+use super::certificates::Certificates;
 use super::discriminant::{self, Asked};
 use super::exit::{Exit, Fault};
 use super::linkage::{code, refuse, written};
@@ -15,6 +16,7 @@ use looproot::internal::derivation::{
 use looproot::internal::error::Error;
 use looproot::internal::kinematics::closed_loop::Variable;
 use looproot::internal::linkage::sphere::solve;
+use looproot::internal::report::certificate::certificate_of_sphere_sweep;
 use looproot::internal::report::linkage::headline;
 use looproot::internal::report::ratio::Ratio;
 use looproot::internal::report::sphere as report;
@@ -241,6 +243,7 @@ pub fn sweep(
     let pool = pool(options.threads)?;
     let found = pool.install(|| sweep_sphere(&file.linkage, (&case.given, file.exact && case.exact), joint, range));
     let found = found.map_err(|error| error.at(&options.mechanism, case.line))?;
+    Certificates::write_one(options.certificate.as_ref(), || certificate_of_sphere_sweep(file, &found))?;
     let mut output = open()?;
     let (out, traced) = (&mut output.writer, traced.as_ref());
     let ratio = follower.map(|follower| Ratio::of_sphere(file, &found, follower));

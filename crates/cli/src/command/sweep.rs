@@ -44,10 +44,7 @@ pub fn run_to(options: &SweepOptions, open: impl FnOnce() -> Result<Output, Faul
     let entry = match load_solvable(&options.mechanism, &Options { chains, ..options.read.options() })? {
         Any::Entry(entry) => *entry,
         Any::Linkage(file) => return super::linkage_sweep::run(options, &file, open),
-        Any::Sphere(file) => {
-            not_covered(options.certificate.as_ref(), "linkages on the sphere");
-            return super::sphere::sweep(options, &file, open);
-        }
+        Any::Sphere(file) => return super::sphere::sweep(options, &file, open),
         Any::Space(_) => {
             return Err(Error::Unsupported("linkages in space are not swept yet".to_owned()).into());
         }
