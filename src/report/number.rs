@@ -101,7 +101,7 @@ mod tests {
         assert_eq!(digits(-2.0), "-2");
         assert_eq!(digits(1.0 / 3.0), "0.333333333333333");
         assert_eq!(digits(1.25e-7), "1.25e-7");
-        assert_eq!([4.1234, 0.0031623, 0.0].map(three_digits), ["4.12", "0.00316", "0"]);
+        assert_eq!([4.1234, 0.003_162_3, 0.0].map(three_digits), ["4.12", "0.00316", "0"]);
     }
 
     #[test]

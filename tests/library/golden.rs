@@ -80,6 +80,7 @@ fn answer(status: Status, modes: Vec<FullMode>, reason: &str) -> Solution {
     };
     let warnings = vec!["the rotation matrix is off by 3e-7; the nearest rotation was taken".to_owned()];
     Solution {
+        nearest: None,
         arm: None,
         families: Vec::new(),
         verdict,

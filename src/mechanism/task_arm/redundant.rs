@@ -137,7 +137,9 @@ impl TaskArm {
                 any = any.or(Some(q));
             }
             if let Some(tracer) = &mut tracer {
-                middles(&found).iter().for_each(|q| tracer.follow_beside(q));
+                for q in middles(&found) {
+                    tracer.follow_beside(&q);
+                }
             }
             last = Some(solution);
         }
