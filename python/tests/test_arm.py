@@ -186,3 +186,14 @@ def test_polynomials_become_sympy() -> None:
     assert found.polynomial is not None
     poly = found.polynomial.sympy()
     assert poly.degree() == found.polynomial.degree == 16
+
+
+def test_a_pose_out_of_reach_is_drawn_with_the_nearest_configuration() -> None:
+    pose = np.eye(4)
+    pose[0, 3] = 5.0
+    found = lr.robot("puma560").ik(pose)
+    assert not found.reachable and found.complete
+    nearest = found.document()["results"][0]["nearest"]
+    # The arm reaches 0.9 m from its base.
+    assert 4.0 < nearest["error"]["position"] < 4.3
+    assert "The nearest configuration found misses the pose by 4.1" in found.view()

@@ -90,8 +90,10 @@ impl Model {
         let view = View { complex, ..View::default() };
         let labels = document::labels(&self.entry);
         let stage = Stage::of(&self.entry);
+        let mechanism = self.mechanism().ok().filter(|_| answers.len() == 1);
         let results = answers.iter().zip(1..).map(|((case, solution), number)| {
-            let mut result = json::result(number, case, solution, &labels, &view);
+            let alone = mechanism.map(|mechanism| mechanism.alone(case, solution.clone()));
+            let mut result = json::result(number, case, alone.as_ref().unwrap_or(solution), &labels, &view);
             if let Some(stage) = &stage {
                 scene::pose_result(&mut result, stage);
             }

@@ -107,7 +107,7 @@ pub struct Solution {
     /// The part that only an arm of few or many joints has, or one with a task or with held joints.
     pub arm: Option<ArmAnswer>,
     /// The configuration of an arm that comes nearest to a pose where none is within the tolerance, and by how much it misses: of arms of
-    /// few joints the nearest one that the search met, of others see [`Mechanism::nearest`].
+    /// few joints the nearest one that the search met, of others see [`Mechanism::alone`].
     pub nearest: Option<(Vec<f64>, PoseError)>,
     /// The part that only a platform has.
     pub platform: Option<PlatformAnswer>,
@@ -218,8 +218,7 @@ impl Mechanism {
     /// Returns the configuration of an arm that comes nearest to the pose of a case where least squares from places all over look for it,
     /// and by how much it misses; a metre counts as much as a radian. `None` for other mechanisms, and for tasks that ask for less than
     /// the pose.
-    #[must_use]
-    pub fn nearest(&self, case: &Case) -> Option<(Vec<f64>, PoseError)> {
+    fn nearest(&self, case: &Case) -> Option<(Vec<f64>, PoseError)> {
         let pose = case.pose.as_ref()?;
         let (mut q, miss) = match &self.solver {
             Solver::SingleLoop(solver) => solver.nearest(pose),
@@ -228,6 +227,16 @@ impl Mechanism {
         }?;
         self.turns.place(&mut q, 0.0);
         Some((q, miss))
+    }
+
+    /// Returns the answer to the only case that is asked: where nothing is listed, with what comes nearest. The search for it takes some
+    /// milliseconds, which many cases would not be given.
+    #[must_use]
+    pub fn alone(&self, case: &Case, mut solution: Solution) -> Solution {
+        if !solution.modes.iter().any(|mode| mode.real) && solution.families.is_empty() {
+            solution.nearest = self.nearest(case).or(solution.nearest);
+        }
+        solution
     }
 
     /// Solves one case of a sweep, whose proof is about all of its inputs together: `unreachable` may be unproved here.

@@ -280,8 +280,8 @@ impl<'a> Work<'a> {
     fn answer(&self, case: &Case, memory: &mut (Workspace, Assembly)) -> Result<Answer, Error> {
         let roots = if self.options.real { Roots::Real } else { Roots::All };
         let mut solution = self.mechanism.solve(case, roots, &mut memory.0, &mut memory.1)?;
-        if self.is_alone && !solution.modes.iter().any(|mode| mode.real) && solution.families.is_empty() {
-            solution.nearest = self.mechanism.nearest(case).or(solution.nearest);
+        if self.is_alone {
+            solution = self.mechanism.alone(case, solution);
         }
         let curve = if self.options.derivatives { Some(InputCurve::of(self.entry, case)?) } else { None };
         let derivatives = curve.map(|curve| solution.modes.iter().map(|mode| curve.derivatives(mode)).collect());
