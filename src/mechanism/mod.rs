@@ -225,7 +225,7 @@ impl Mechanism {
             Solver::TaskArm(solver) => solver.nearest_of_all(pose),
             Solver::OverconstrainedLoop(_) | Solver::Platform(_) => None,
         }?;
-        self.turns.place(&mut q, 0.0);
+        self.turns.turn(&mut q);
         Some((q, miss))
     }
 

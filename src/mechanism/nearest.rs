@@ -1,5 +1,7 @@
 //! Configurations that come nearest to a pose, by least squares.
 
+use super::single_loop::SingleLoop;
+use crate::kinematics::chain::Placement;
 use crate::kinematics::forward::Forward;
 use crate::kinematics::joint::Variable;
 use crate::kinematics::motion::Motion;
@@ -47,6 +49,15 @@ pub(super) fn nearest_of_all(
         }
     }
     Some((q, miss))
+}
+
+impl SingleLoop {
+    /// Returns the configuration of an arm that comes nearest to a pose of all that the search finds.
+    pub(super) fn nearest(&self, pose: &Placement) -> Option<(Vec<f64>, PoseError)> {
+        let forward = self.forward.get_or_init(|| Forward::of(&self.chain)).as_ref()?;
+        let total = forward.variables().len();
+        nearest_of_all(forward, &vec![0.0; total], &(0..total).collect::<Vec<_>>(), &pose.float)
+    }
 }
 
 /// Returns a number of a sequence that fills the interval from -1 to 1 evenly, another one for every place: multiples of the square roots of

@@ -12,7 +12,6 @@ use super::by_input::{ByInput, Prepared};
 use super::data::{Data, Modular, is_rational};
 use super::dependence::dependent;
 use super::exact_loop::{Question as ExactQuestion, SsDyadQuestion};
-use super::nearest::nearest_of_all;
 use super::unproved::{is_left_to_equations, is_settled, moving, not_moving, perhaps_near};
 use super::vicinity::Vicinity;
 use super::{FullMode, Solution};
@@ -36,7 +35,7 @@ use crate::kinematics::closed_loop::{
 use crate::kinematics::forward::Forward;
 use crate::kinematics::freedom::Freedom;
 use crate::kinematics::motion::{Motion, unit_near};
-use crate::kinematics::tolerance::{PoseError, Tolerance};
+use crate::kinematics::tolerance::Tolerance;
 use crate::solve::scalar::Extended;
 use crate::verdict::{Bound, Code, Proof, Status, Verdict, verdict};
 use num_complex::Complex;
@@ -192,13 +191,6 @@ impl SingleLoop {
             solution = Solution { solve_us: solution.solve_us + all.solve_us, ..all.of_real() };
         }
         Ok(solution)
-    }
-
-    /// Returns the configuration of an arm that comes nearest to a pose of all that the search finds.
-    pub(super) fn nearest(&self, pose: &Placement) -> Option<(Vec<f64>, PoseError)> {
-        let forward = self.forward.get_or_init(|| Forward::of(&self.chain)).as_ref()?;
-        let total = forward.variables().len();
-        nearest_of_all(forward, &vec![0.0; total], &(0..total).collect::<Vec<_>>(), &pose.float)
     }
 
     /// Lists the solutions of one case.

@@ -31,6 +31,20 @@ impl Turns {
         }
     }
 
+    /// Moves those angles of a configuration that whole turns lead into the limits; the others stay as they are.
+    pub(super) fn turn(&self, q: &mut [f64]) {
+        for &(at, limits) in &self.0 {
+            if let Some(value) = q.get_mut(at) {
+                let moved = within(*value, limits);
+                let turns = (moved - *value) / TAU;
+                // What is no whole turn was cut off at a limit.
+                if (turns - turns.round()).abs() < f64::EPSILON * (1.0 + turns.abs()) {
+                    *value = moved;
+                }
+            }
+        }
+    }
+
     /// Moves the angles of a mode that respects the limits into them, by whole turns.
     pub(super) fn apply(&self, mode: &mut FullMode) {
         if mode.within_limits != Some(true) {
@@ -88,6 +102,14 @@ fn within(angle: f64, [low, high]: [f64; 2]) -> f64 {
 mod tests {
     use super::*;
     use std::f64::consts::PI;
+
+    #[test]
+    fn angles_that_no_turn_leads_into_the_limits_stay() {
+        let turns = Turns::new(&[Variable::Rotation; 2], &[[0.0, 3.0]; 2]);
+        let mut q = [1.5 - TAU, 3.1];
+        turns.turn(&mut q);
+        assert!((q[0] - 1.5).abs() < 1e-12 && q[1] == 3.1, "{q:?}");
+    }
 
     #[test]
     fn angles_move_by_whole_turns_only_where_they_must() {
