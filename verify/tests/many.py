@@ -3,7 +3,7 @@
 usage: LOOPROOT=target/release/looproot verify/tests/many.py --arms 10000 --loops 1000 --platforms 300 --linkages 1000 --sets 10
                                                              [--python 20] [--seed 1] [--keep FOLDER]
 
-So many problems of each kind are drawn, and so many of every set of `looproot bench accuracy`. The checker in Python takes the first
+The options say how many problems of each kind are drawn, and how many of every set of `looproot bench accuracy`. The checker in Python takes the first
 certificate of each kind and every 20th behind it. A certificate that a checker refuses, or does not decide in two minutes, is kept with its file, and makes the exit code 1.
 """
 import argparse
