@@ -477,7 +477,7 @@ mod tests {
         f.sparse_gcd_within(g, &support, |_, _| f64::INFINITY)
     }
 
-    /// Returns the polynomial with these terms, made primitive and free of monomial factors.
+    /// Returns the polynomial with these terms, made primitive and free of monomial factors; zero if they cancel.
     fn reduced(terms: Vec<(Vec<u32>, i64)>) -> Poly {
         let polynomial = Poly::from_terms(terms.into_iter().map(|(e, c)| (e, Int::from(c))));
         polynomial.div_exact(&polynomial.monomial_content()).primitive_part()
@@ -486,7 +486,9 @@ mod tests {
     fn polynomials(variables: usize, degree: u32, terms: usize) -> impl Strategy<Value = Poly> {
         let term = (prop::collection::vec(0..=degree, variables), 1_i64..1 << 40);
         let signed = term.prop_map(|(e, c)| (e, if c % 3 == 0 { -c } else { c >> (c % 37) }));
-        prop::collection::vec(signed, 1..=terms).prop_map(reduced)
+        // Zero has divisors without end: `gcd` answers for it before it comes to a progression.
+        let terms = prop::collection::vec(signed, 1..=terms);
+        terms.prop_map(reduced).prop_filter("terms that cancel", |polynomial| !polynomial.is_zero())
     }
 
     proptest! {
