@@ -11,27 +11,32 @@ use crate::kinematics::sphere::{Direction, SphereGiven};
 use rug::Rational;
 
 /// Splits names and values: `A=60 deg, B=1/2`.
-fn typed(text: &str) -> Result<Vec<(&str, &str)>> {
+/// The option that holds the values of inputs.
+const INPUT: &str = "--input";
+/// The option that holds the values to which the nearest assemblies are listed.
+const NEAR: &str = "--near";
+
+fn typed<'a>(text: &'a str, option: &str) -> Result<Vec<(&'a str, &'a str)>> {
     let pairs = text.split(',').map(|part| {
-        let message = || format!("found --input \"{}\", expected JOINT=VALUE, such as A=60 deg", part.trim());
+        let message = || format!("found {option} \"{}\", expected JOINT=VALUE, such as A=60 deg", part.trim());
         let (name, value) = part.split_once('=').ok_or_else(|| Error::Invalid(message()))?;
         Ok((name.trim(), value.trim()))
     });
     pairs.collect()
 }
 
-fn number_of<'a>(name: &str, mut joints: impl Iterator<Item = &'a str> + Clone) -> Result<usize> {
+fn number_of<'a>(name: &str, mut joints: impl Iterator<Item = &'a str> + Clone, option: &str) -> Result<usize> {
     let known = joints.clone();
     joints.position(|own| own == name).ok_or_else(|| {
         let known: Vec<&str> = known.take(12).collect();
         let name: String = name.chars().take(40).collect();
-        Error::Invalid(format!("found the unknown joint `{name}` in --input, expected one of {}", known.join(", ")))
+        Error::Invalid(format!("found the unknown joint `{name}` in {option}, expected one of {}", known.join(", ")))
     })
 }
 
-fn in_option(name: &str, error: impl Into<Error>) -> Error {
+fn in_option(name: &str, error: impl Into<Error>, option: &str) -> Error {
     match error.into() {
-        Error::Invalid(message) => Error::Invalid(format!("--input {name}: {message}")),
+        Error::Invalid(message) => Error::Invalid(format!("{option} {name}: {message}")),
         other => other,
     }
 }
@@ -44,17 +49,56 @@ impl LinkageFile {
     /// For unknown joints, gears, and values that are none.
     pub fn case_with(&self, text: &str) -> Result<LinkageCase> {
         let mut values = Vec::new();
-        for (name, value) in typed(text)? {
-            let joint = number_of(name, self.linkage.joints.iter().map(|joint| joint.name.as_str()))?;
+        for (name, value) in typed(text, INPUT)? {
+            let joint = number_of(name, self.linkage.joints.iter().map(|joint| joint.name.as_str()), INPUT)?;
             let value = if self.linkage.joints[joint].is_prismatic() {
                 let distance = Number::parse(value, Quantity::Length, &self.reading);
-                InputValue::Distance(distance.map_err(|error| in_option(name, error))?)
+                InputValue::Distance(distance.map_err(|error| in_option(name, error, INPUT))?)
             } else {
-                InputValue::Angle(angle(name, value, &self.reading)?)
+                InputValue::Angle(angle(name, value, &self.reading, INPUT)?)
             };
             values.push((name.to_owned(), value));
         }
         self.case_at(&values)
+    }
+
+    /// Returns the values of joints of `--near`, radians or metres: `A=10 deg, B=0.5`, or one value for every joint but gears, in the
+    /// order of the file. Values without a unit have that of the file.
+    ///
+    /// # Errors
+    /// For unknown joints, gears, too few or too many values, and values that are none.
+    pub fn near(&self, text: &str) -> Result<Vec<Option<f64>>> {
+        let joints = &self.linkage.joints;
+        let names: Vec<&str> =
+            joints.iter().filter(|joint| !joint.is_gear()).map(|joint| joint.name.as_str()).collect();
+        let pairs: Vec<(&str, &str)> = if text.contains('=') {
+            typed(text, NEAR)?
+        } else {
+            let values: Vec<&str> = text.split(',').map(str::trim).collect();
+            if values.len() != names.len() {
+                return Err(Error::Invalid(format!(
+                    "found {} values in --near, expected {}, separated by commas, or JOINT=VALUE",
+                    values.len(),
+                    names.len()
+                )));
+            }
+            names.iter().copied().zip(values).collect()
+        };
+        let mut near = vec![None; joints.len()];
+        for (name, value) in pairs {
+            let number = number_of(name, joints.iter().map(|joint| joint.name.as_str()), NEAR)?;
+            near[number] = Some(match &joints[number].pair {
+                Pair::Gear { .. } => {
+                    return Err(Error::Invalid(format!("found the gears {name} in --near, which have no value")));
+                }
+                Pair::Prismatic { .. } => {
+                    let distance = Number::parse(value, Quantity::Length, &self.reading);
+                    distance.map_err(|error| in_option(name, error, NEAR))?.to_f64()
+                }
+                Pair::Revolute => angle(name, value, &self.reading, NEAR)?.radians(),
+            });
+        }
+        Ok(near)
     }
 
     /// Returns the first case with these values in place of those of the same joints, or beside them.
@@ -65,7 +109,7 @@ impl LinkageFile {
         let mut case = LinkageCase { expected: LinkageClaims::default(), ..self.cases[0].clone() };
         let line = case.line;
         for (name, value) in values {
-            let joint = number_of(name, self.linkage.joints.iter().map(|joint| joint.name.as_str()))?;
+            let joint = number_of(name, self.linkage.joints.iter().map(|joint| joint.name.as_str()), INPUT)?;
             let (given, exact) = match (&self.linkage.joints[joint].pair, value) {
                 (Pair::Gear { .. }, _) => {
                     return Err(Error::Invalid(format!("found the gears {name} as an input, which have no value")));
@@ -114,8 +158,8 @@ impl SphereFile {
     /// For unknown joints and values that are none.
     pub fn case_with(&self, text: &str) -> Result<SphereCase> {
         let mut values = Vec::new();
-        for (name, value) in typed(text)? {
-            values.push((name.to_owned(), InputValue::Angle(angle(name, value, &self.reading)?)));
+        for (name, value) in typed(text, INPUT)? {
+            values.push((name.to_owned(), InputValue::Angle(angle(name, value, &self.reading, INPUT)?)));
         }
         self.case_at(&values)
     }
@@ -128,7 +172,7 @@ impl SphereFile {
         let mut case = SphereCase { expected: SphereClaims::default(), ..self.cases[0].clone() };
         let line = case.line;
         for (name, value) in values {
-            let joint = number_of(name, self.linkage.joints.iter().map(|joint| joint.name.as_str()))?;
+            let joint = number_of(name, self.linkage.joints.iter().map(|joint| joint.name.as_str()), INPUT)?;
             let own = &self.linkage.joints[joint];
             let InputValue::Angle(angle) = value else {
                 return Err(Error::Invalid(format!("found a distance for the joint {name}, expected an angle")));
@@ -168,12 +212,12 @@ impl SpaceFile {
     /// For unknown joints and values that are none.
     pub fn case_with(&self, text: &str) -> Result<SpaceCase> {
         let mut values = Vec::new();
-        for (name, value) in typed(text)? {
+        for (name, value) in typed(text, INPUT)? {
             let value = if self.is_distance(name) == Some(true) {
                 let distance = Number::parse(value, Quantity::Length, &self.reading);
-                InputValue::Distance(distance.map_err(|error| in_option(name, error))?)
+                InputValue::Distance(distance.map_err(|error| in_option(name, error, INPUT))?)
             } else {
-                InputValue::Angle(angle(name, value, &self.reading)?)
+                InputValue::Angle(angle(name, value, &self.reading, INPUT)?)
             };
             values.push((name.to_owned(), value));
         }
@@ -181,6 +225,6 @@ impl SpaceFile {
     }
 }
 
-fn angle(name: &str, value: &str, reading: &Reading) -> Result<Angle> {
-    Angle::parse(value, reading).map_err(|error| in_option(name, error))
+fn angle(name: &str, value: &str, reading: &Reading, option: &str) -> Result<Angle> {
+    Angle::parse(value, reading).map_err(|error| in_option(name, error, option))
 }

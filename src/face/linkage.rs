@@ -106,7 +106,7 @@ impl Linkage {
         let mut document = match &self.file {
             Kind::Plane(file) => {
                 let case = self.plane_case(file, given)?;
-                let asked = crate::linkage::assembly::Asked { complex, stop: &AtomicBool::new(false) };
+                let asked = crate::linkage::assembly::Asked { complex, stop: &AtomicBool::new(false), near: None };
                 let answer = solve_or_move(file, &case, asked)?;
                 linkage::json(file, &[linkage::result(file, &case, 1, &answer, complex)])
             }
@@ -138,7 +138,7 @@ impl Linkage {
             return Err(none("linkages on the sphere and in space are not covered"));
         };
         let case = self.plane_case(file, given)?;
-        let asked = crate::linkage::assembly::Asked { complex: true, stop: &AtomicBool::new(false) };
+        let asked = crate::linkage::assembly::Asked { complex: true, stop: &AtomicBool::new(false), near: None };
         let answer = solve_or_move(file, &case, asked)?;
         certificate_of_linkage(file, 1, &case, &answer).map_err(|reason| none(&reason))
     }

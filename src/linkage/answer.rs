@@ -2,6 +2,7 @@
 
 use super::assembly::{Asked, Assemblies, Family, FamilyKind, Route, Solution, assemblies, assemblies_within};
 use super::isotropic::{Value, middle};
+use super::near::sort_near;
 use super::rates::{movable, resting};
 use super::state::{Number, State, number};
 use crate::algebra::drawn;
@@ -79,6 +80,8 @@ pub struct LinkageAnswer {
     pub families: Vec<LinkageFamily>,
     /// The groups in the order in which they were solved.
     pub groups: Vec<LinkageGroup>,
+    /// Whether `modes` holds all assemblies that the verdict counts.
+    pub listed: bool,
     /// Microseconds that it took.
     pub solve_us: f64,
 }
@@ -88,7 +91,7 @@ pub struct LinkageAnswer {
 /// # Errors
 /// Where inputs are too few, too many or meet a rigid part, and for groups that are beyond what is implemented.
 pub fn solve(linkage: &Linkage, given: &[Given], accuracy: Accuracy) -> Result<LinkageAnswer> {
-    solve_asked(linkage, given, accuracy, Asked { complex: false, stop: &AtomicBool::new(false) })
+    solve_asked(linkage, given, accuracy, Asked { complex: false, stop: &AtomicBool::new(false), near: None })
 }
 
 /// As [`solve`], for complex assemblies of large groups as well where they are asked for. A search that is ended is incomplete.
@@ -120,6 +123,9 @@ pub fn solve_asked(linkage: &Linkage, given: &[Given], accuracy: Accuracy, asked
         };
         b.real.cmp(&a.real).then_with(angles)
     });
+    if let Some(near) = asked.near {
+        sort_near(linkage, &mut modes, near);
+    }
     let families = found.curves.iter().filter(|family| is_one(&family.state));
     let families = families.map(|family| {
         let mut one = LinkageFamily::at(linkage, &family.state, family.dimension, family.joints.clone());
@@ -140,6 +146,7 @@ pub fn solve_asked(linkage: &Linkage, given: &[Given], accuracy: Accuracy, asked
         modes,
         families,
         groups: groups.collect(),
+        listed: true,
         solve_us: start.elapsed().as_secs_f64() * 1e6,
     })
 }
@@ -193,7 +200,7 @@ fn motion(family: &Family, found: &Assemblies) -> (bool, String) {
         let reason = format!(
             "a group moves by itself, and {groups}; isolated assemblies and other motions beside it are not all looked for"
         );
-        return (family.is_proved && family.dimension == 1, reason);
+        return (family.is_proved, reason);
     }
     if family.kind != FamilyKind::Other {
         let list = match &found.doubt {
@@ -317,6 +324,8 @@ fn verdict(found: &Assemblies, modes: &[LinkageMode], families: &[LinkageFamily]
 
 /// Bits of an angle before it is listed in f64.
 const ANGLE_BITS: u32 = 80;
+/// Bits of the modulus of a rotation before its logarithm is listed in f64: those of an f64 are left where it is 1e-27 off 1.
+const GROWTH_BITS: u32 = 144;
 
 /// The complex angle of a rotation: `-i log z`, real where z is on the unit circle.
 fn angle(turn: &Number, is_real: bool) -> Coordinate {
@@ -324,8 +333,8 @@ fn angle(turn: &Number, is_real: bool) -> Coordinate {
     let angle = Float::with_val(ANGLE_BITS, im.atan2_ref(re)).to_f64();
     // The half turn is pi and not -pi.
     let angle = if angle <= -std::f64::consts::PI { std::f64::consts::PI } else { angle };
-    let growth = if is_real { 0.0 } else { -Float::with_val(re.prec(), re.hypot_ref(im)).ln().to_f64() };
-    Complex::new(angle, growth)
+    let growth = || -Float::with_val(GROWTH_BITS, re.hypot_ref(im)).ln().to_f64();
+    Complex::new(angle, if is_real { 0.0 } else { growth() })
 }
 
 /// The coordinates x and y of a point.
@@ -335,7 +344,13 @@ fn coordinates(point: &Number) -> [Coordinate; 2] {
     [sum / 2.0, difference / Complex::new(0.0, 2.0)]
 }
 
-fn mode(linkage: &Linkage, state: &State) -> LinkageMode {
+/// The numbers of a place as they are known without what is exact of them, which a list does not need.
+fn enclosed(value: &Value) -> Value {
+    Value::within(value.disc.clone())
+}
+
+pub(super) fn mode(linkage: &Linkage, state: &State) -> LinkageMode {
+    let state = &state.map(enclosed);
     let clean = |z: Coordinate| if state.real { Complex::new(z.re + 0.0, 0.0) } else { z };
     let joints = linkage.joints.iter().map(|joint| {
         let place = state.against(joint.of[1], joint.of[0]);

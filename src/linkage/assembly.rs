@@ -9,13 +9,12 @@ use super::geared_groups::geared_groups;
 use super::gears::{Geared, geared, is_train, teeth};
 use super::general::{general, least_rows, with_choices};
 use super::groups::{Group, Groups, MOST_CLUSTERS, MOST_IN_BOXES, Merged};
-use super::isotropic::{Isotropic, Value};
-use super::krawczyk::{Proved, conjugate};
+use super::krawczyk::Proved;
 use super::members::are_all;
-use super::quadratic::{Root, Solved, one_cycle};
+use super::quadratic::{Root, Solved, one_cycle, realness};
 use super::real_motion::Moving;
 use super::real_system::is_real;
-use super::state::{Number, Place, State, place_of, place_within};
+use super::state::{Half, Number, Place, State, place_of, place_within};
 use crate::algebra::ring::Ring;
 use crate::error::{Error, Result};
 use crate::kinematics::linkage::{Gaussian, Given, Linkage, Pair};
@@ -29,7 +28,7 @@ pub(super) const SHALLOW: usize = 1;
 /// The reason given for an assembly that is neither proved real nor proved complex.
 const UNDECIDED: &str = "an assembly is neither proved real nor proved complex";
 /// Most branches that are listed.
-const MOST_BRANCHES: usize = 1 << 14;
+pub(super) const MOST_BRANCHES: usize = 1 << 14;
 
 /// Rows of a pencil beyond which a group is solved by boxes where only real assemblies are asked for: 96 rows (11 links) took 2 s, 224 rows (13 links)
 /// 25 s, and boxes less than 1 s for both.
@@ -48,6 +47,8 @@ pub struct Asked<'a> {
     pub complex: bool,
     /// Ends the search of large groups when it is raised.
     pub stop: &'a AtomicBool,
+    /// Values of joints, radians or metres, to which the nearest assemblies are listed first.
+    pub near: Option<&'a [Option<f64>]>,
 }
 
 /// A way in which a group is solved.
@@ -262,10 +263,13 @@ pub fn assemblies_within(linkage: &Linkage, given: &[Given], asked: Asked<'_>) -
     placed(linkage, given, place_within, asked)
 }
 
-/// A place of the second body of an input against the first.
-type Placing = fn(&Linkage, &Given) -> Option<Place>;
-
-fn placed(linkage: &Linkage, given: &[Given], place: Placing, asked: Asked<'_>) -> Result<Assemblies> {
+/// All assemblies, where `place` is that of the second body of an input against the first.
+fn placed(
+    linkage: &Linkage,
+    given: &[Given],
+    place: impl Fn(&Linkage, &Given) -> Option<Place>,
+    asked: Asked<'_>,
+) -> Result<Assemblies> {
     let groups = groups_of(linkage, given)?;
     let start = started(linkage, given, place)?;
     let shallow = attempt(linkage, &start, &groups.list, SHALLOW, true, asked)?;
@@ -309,8 +313,12 @@ pub fn parts_when_still(linkage: &Linkage, held: &[Given], joint: usize) -> Opti
     Some(parts)
 }
 
-/// The bodies that the inputs glue.
-fn started(linkage: &Linkage, given: &[Given], place: Placing) -> Result<State> {
+/// The bodies that the inputs glue, where `place` is that of the second body of an input against the first.
+pub(super) fn started<R: Half>(
+    linkage: &Linkage,
+    given: &[Given],
+    place: impl Fn(&Linkage, &Given) -> Option<Place<R>>,
+) -> Result<State<R>> {
     let mut start = State::new(linkage.bodies.len(), SHALLOW);
     for one in given {
         let [a, b] = one.bodies(linkage);
@@ -376,7 +384,7 @@ pub(super) fn attempt(
                 }
                 solution.route = route;
             }
-            let is_open = !later.is_empty() && !follow(linkage, &mut found.curves[moving..], later, asked);
+            let is_open = !later.is_empty() && !follow(linkage, &mut found.curves[moving..], state, later, asked);
             if is_open && united.solve(at, later, moving, &mut found) {
                 next.truncate(known);
             }
@@ -636,12 +644,7 @@ fn add_roots(
         let mut next_state = closure.assembled(state, &root.turns, &root.shifts);
         next_state.real = real;
         next_state.multiplicity *= root.multiplicity;
-        // The number whose tower is the highest holds all others.
-        for number in root.turns.iter().chain(&root.shifts) {
-            if let Some(exact) = number.z.exact.as_ref() {
-                next_state.top.number = next_state.top.number.lifted(exact);
-            }
-        }
+        next_state.top.hold(root);
         next.push(next_state);
     }
 }
@@ -655,31 +658,4 @@ fn dyad_gap(equations: &Equations<Number>) -> Option<f64> {
     let lengths: Vec<f64> = cycle.iter().map(|n| n.z.middle().norm()).collect();
     let longest = lengths.iter().copied().fold(0.0, f64::max);
     Some((2.0 * longest - lengths.iter().sum::<f64>()).max(0.0))
-}
-
-/// The mirror image of a number: the one of the conjugate assembly.
-fn mirrored(number: &Number) -> Number {
-    let half = |value: &Value| Value::within(conjugate(&value.disc));
-    Isotropic { z: half(&number.w), w: half(&number.z) }
-}
-
-/// Whether the roots of a group with real data are real: the mirror image of every root is one of them.
-fn realness(roots: &[Root]) -> Vec<Option<bool>> {
-    let apart = |one: &Root, two: &Root| {
-        let numbers = |root: &Root| root.turns.iter().chain(&root.shifts).cloned().collect::<Vec<Number>>();
-        numbers(one).iter().zip(&numbers(two)).any(|(a, b)| a.z.disc.sub(&b.z.disc).is_not_zero())
-    };
-    let mirror = |root: &Root| Root {
-        turns: root.turns.iter().map(mirrored).collect(),
-        shifts: root.shifts.iter().map(mirrored).collect(),
-        multiplicity: root.multiplicity,
-    };
-    let one = |k: usize| {
-        let image = mirror(&roots[k]);
-        if apart(&image, &roots[k]) {
-            return Some(false);
-        }
-        (0..roots.len()).filter(|j| *j != k).all(|j| apart(&image, &roots[j])).then_some(true)
-    };
-    (0..roots.len()).map(one).collect()
 }

@@ -11,23 +11,47 @@ use super::exact_group::decided;
 use super::groups::Group;
 use super::state::State;
 use crate::kinematics::linkage::Linkage;
+use std::collections::BTreeSet;
 
 /// Branches whose groups are solved as one: a Gröbner basis takes up to a second.
 const MOST_UNITED: usize = 4;
 /// Motions that are followed in one branch.
 const MOST_FOLLOWED: usize = 4;
 
-/// Replaces real motions of a group by those of the whole linkage; false where one of them is not known to go on.
-pub(super) fn follow(linkage: &Linkage, families: &mut [Family], later: &[Group], asked: Asked<'_>) -> bool {
+/// Replaces real motions of a group, solved in the branch `before`, by those of the whole linkage; false where one of them is not known
+/// to go on.
+pub(super) fn follow(
+    linkage: &Linkage,
+    families: &mut [Family],
+    before: &State,
+    later: &[Group],
+    asked: Asked<'_>,
+) -> bool {
     let real = families.iter_mut().filter(|family| family.state.real);
     let mut all = true;
     for (k, family) in real.enumerate() {
-        all = k < MOST_FOLLOWED && follow_one(linkage, family, later, asked) && all;
+        all = k < MOST_FOLLOWED && follow_one(linkage, family, before, later, asked) && all;
     }
     all
 }
 
-fn follow_one(linkage: &Linkage, family: &mut Family, later: &[Group], asked: Asked<'_>) -> bool {
+/// Whether a later motion is one of a group that the motion of an earlier one, solved in the branch `before`, leaves as it is: it joins
+/// no more clusters there than in the branch `behind` that group.
+fn is_apart(linkage: &Linkage, motion: &Family, before: &State, behind: &State, later: &[Group]) -> bool {
+    if !matches!(motion.kind, FamilyKind::Dyad | FamilyKind::Spin) {
+        return false;
+    }
+    let Some(group) = later.iter().find(|group| motion.joints.iter().all(|joint| group.joints.contains(joint))) else {
+        return false;
+    };
+    let clusters = |state: &State| {
+        let of = |joint: &usize| linkage.joints[*joint].of.map(|body| state.bodies[body].0);
+        group.joints.iter().flat_map(of).collect::<BTreeSet<usize>>().len()
+    };
+    clusters(before) == clusters(behind)
+}
+
+fn follow_one(linkage: &Linkage, family: &mut Family, before: &State, later: &[Group], asked: Asked<'_>) -> bool {
     // A sample of another motion may be an isolated assembly beside it.
     let is_proved = matches!(family.kind, FamilyKind::Dyad | FamilyKind::Spin);
     let go_on = |sample: &State| {
@@ -36,10 +60,12 @@ fn follow_one(linkage: &Linkage, family: &mut Family, later: &[Group], asked: As
         if let Some(state) = found.modes.into_iter().find(is_regular) {
             return Some((state, family.dimension, is_proved));
         }
-        // While the first group stands still, another one may move.
-        let moves = |other: &Family| other.state.real && is_one(&other.state);
+        // Another one moves beside the first, which takes no part in that. Where it does, the first may have to stand still.
+        let moves = |other: &Family| {
+            other.state.real && is_one(&other.state) && is_apart(linkage, other, before, sample, later)
+        };
         let other = found.curves.into_iter().find(moves)?;
-        Some((other.state, other.dimension, other.is_proved))
+        Some((other.state, family.dimension + other.dimension, is_proved && other.is_proved))
     };
     let Some((state, dimension, is_proved)) = [&family.state].into_iter().chain(&family.samples).find_map(go_on) else {
         return false;

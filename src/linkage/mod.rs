@@ -9,8 +9,10 @@
 
 pub mod answer;
 pub mod assembly;
+mod bounded_half;
 pub mod boxes;
 pub mod cognates;
+pub mod count;
 pub mod defects;
 pub mod dyads;
 pub mod dynamics;
@@ -30,7 +32,9 @@ pub mod krawczyk;
 pub mod laurent;
 pub mod limits;
 pub mod loads;
+pub mod many;
 mod members;
+mod near;
 pub mod parts;
 pub mod pencil;
 mod points;

@@ -2,30 +2,30 @@
 
 use super::equations::Equations;
 use super::isotropic::{Isotropic, Value};
+use super::krawczyk::conjugate;
 use super::polynomial::turned;
-use super::state::{Number, number};
+use super::state::{Half, number};
 use super::tower::Surd;
 use crate::algebra::ring::Ring;
-use rug::Rational;
 
 /// A solution of a group: the rotations of its classes, the first of which is 1, and the displacements of its slides.
 #[derive(Clone, Debug)]
-pub struct Root {
+pub struct Root<R = Value> {
     /// One for every class.
-    pub turns: Vec<Number>,
+    pub turns: Vec<Isotropic<R>>,
     /// One for every slide, in parts of the length of its direction.
-    pub shifts: Vec<Number>,
+    pub shifts: Vec<Isotropic<R>>,
     /// The multiplicity.
     pub multiplicity: usize,
 }
 
 /// The solutions of a group in one branch.
 #[derive(Clone, Debug)]
-pub enum Solved {
+pub enum Solved<R = Value> {
     /// All of them.
-    Roots(Vec<Root>),
+    Roots(Vec<Root<R>>),
     /// A curve of solutions, on which all these lie.
-    Curve(Vec<Root>),
+    Curve(Vec<Root<R>>),
     /// The question that is left undecided.
     Undecided(String),
 }
@@ -39,29 +39,80 @@ pub struct Top {
     pub highest: usize,
 }
 
+/// Half a number of which may be known whether it is zero.
+pub trait Decidable: Half {
+    /// Returns whether it is zero; `None` where that is undecided.
+    fn vanishes(&self) -> Option<bool>;
+    /// Returns the inverse; `None` where it may be zero.
+    fn inverse(&self) -> Option<Self>;
+    /// Returns a square root of a number that is not zero; `None` where it may be zero. `tower` holds all numbers of the branch.
+    fn square_root(&self, tower: &Top) -> Option<Self>;
+    /// Returns the conjugate.
+    #[must_use]
+    fn conjugate(&self) -> Self;
+    /// Returns the number itself, where it is known.
+    fn exact(&self) -> Option<&Surd> {
+        None
+    }
+}
+
+impl Decidable for Value {
+    fn vanishes(&self) -> Option<bool> {
+        self.vanishes()
+    }
+    fn inverse(&self) -> Option<Self> {
+        self.inverse()
+    }
+    fn square_root(&self, tower: &Top) -> Option<Self> {
+        let root = self.disc.sqrt()?;
+        let exact = self.exact.as_ref().map(|exact| exact.lifted(&tower.number));
+        let exact = exact.filter(|exact| exact.height() <= tower.highest).map(|exact| exact.square_root(&root));
+        let exact = exact.filter(|exact| exact.height() <= tower.highest);
+        // The disc of the exact root may be the one of the other sign: it is the datum then.
+        let disc = exact.as_ref().map_or(root, Surd::disc);
+        Some(Self { disc, exact })
+    }
+    fn conjugate(&self) -> Self {
+        Self::within(conjugate(&self.disc))
+    }
+    fn exact(&self) -> Option<&Surd> {
+        self.exact.as_ref()
+    }
+}
+
+impl Top {
+    /// Takes in the towers of the numbers of a root.
+    pub fn hold<R: Decidable>(&mut self, root: &Root<R>) {
+        // The number whose tower is the highest holds all others.
+        for exact in root.turns.iter().chain(&root.shifts).filter_map(|number| number.z.exact()) {
+            self.number = self.number.lifted(exact);
+        }
+    }
+}
+
 /// A number that is the same in both halves.
-fn scalar(value: &Value) -> Number {
+fn scalar<R: Decidable>(value: &R) -> Isotropic<R> {
     Isotropic { z: value.clone(), w: value.clone() }
 }
 
 /// A rotation from its first half, which is not zero.
-fn rotation(z: Value) -> Option<Number> {
+fn rotation<R: Decidable>(z: R) -> Option<Isotropic<R>> {
     let w = z.inverse()?;
     Some(Isotropic { z, w })
 }
 
 /// Rotations at which a curve is looked at: the first of them may be a special one, at which what stands on it does not close.
-fn samples() -> [Number; 3] {
+fn samples<R: Decidable>() -> [Isotropic<R>; 3] {
     [0, 2, 5].map(|k| number(&turned(k).z))
 }
 
-fn undecided(what: &str) -> Solved {
+fn undecided<R>(what: &str) -> Solved<R> {
     Solved::Undecided(format!("{what} is neither proved zero nor proved not to be"))
 }
 
 /// The roots of `a x^2 + b x + c` that are neither zero nor infinite, with their multiplicities; `Err` where a
 /// coefficient or the discriminant is not decided, `None` where all coefficients are zero.
-fn roots(a: &Value, b: &Value, c: &Value, tower: &Top) -> Result<Option<Vec<(Value, usize)>>, &'static str> {
+fn roots<R: Decidable>(a: &R, b: &R, c: &R, tower: &Top) -> Result<Option<Vec<(R, usize)>>, &'static str> {
     let none_a = a.vanishes().ok_or("the leading coefficient of a dyad")?;
     let none_c = c.vanishes().ok_or("the last coefficient of a dyad")?;
     if none_a || none_c {
@@ -73,20 +124,14 @@ fn roots(a: &Value, b: &Value, c: &Value, tower: &Top) -> Result<Option<Vec<(Val
             _ => a.inverse().map(|inverse| vec![(b.mul(&inverse).neg(), 1)]),
         });
     }
-    let four = Value::from_rational(&Rational::from(4)).unwrap_or_else(Value::zero);
+    let four = R::from_integer(4);
     let discriminant = b.mul(b).sub(&four.mul(a).mul(c));
     let two_a = a.add(a).inverse().ok_or("the leading coefficient of a dyad")?;
     match discriminant.vanishes() {
         None => Err("the discriminant of a dyad"),
         Some(true) => Ok(Some(vec![(b.neg().mul(&two_a), 2)])),
         Some(false) => {
-            let root = discriminant.disc.sqrt().ok_or("the discriminant of a dyad")?;
-            let exact = discriminant.exact.as_ref().map(|exact| exact.lifted(&tower.number));
-            let exact = exact.filter(|exact| exact.height() <= tower.highest).map(|exact| exact.square_root(&root));
-            let exact = exact.filter(|exact| exact.height() <= tower.highest);
-            // The disc of the exact root may be the one of the other sign: it is the datum then.
-            let disc = exact.as_ref().map_or(root, Surd::disc);
-            let root = Value { disc, exact };
+            let root = discriminant.square_root(tower).ok_or("the discriminant of a dyad")?;
             Ok(Some(vec![(root.sub(b).mul(&two_a), 1), (root.neg().sub(b).mul(&two_a), 1)]))
         }
     }
@@ -94,7 +139,7 @@ fn roots(a: &Value, b: &Value, c: &Value, tower: &Top) -> Result<Option<Vec<(Val
 
 /// Solves a group of one cycle. `tower` holds all numbers.
 #[must_use]
-pub fn one_cycle(equations: &Equations<Number>, tower: &Top) -> Solved {
+pub fn one_cycle<R: Decidable>(equations: &Equations<Isotropic<R>>, tower: &Top) -> Solved<R> {
     let c = &equations.cycles[0];
     match (equations.classes, equations.slides.as_slice()) {
         (3, []) => three_turns(c, tower),
@@ -112,8 +157,8 @@ pub fn one_cycle(equations: &Equations<Number>, tower: &Top) -> Solved {
 }
 
 /// `c0 + c1 x + c2 y = 0` with rotations x and y.
-fn three_turns(c: &[Number], tower: &Top) -> Solved {
-    let length = |n: &Number| n.z.mul(&n.w);
+fn three_turns<R: Decidable>(c: &[Isotropic<R>], tower: &Top) -> Solved<R> {
+    let length = |n: &Isotropic<R>| n.z.mul(&n.w);
     // The rotation that is eliminated has a coefficient that is not zero.
     let zeros: Vec<Option<bool>> = c.iter().map(|n| length(n).vanishes()).collect();
     if zeros.contains(&None) {
@@ -137,23 +182,23 @@ fn three_turns(c: &[Number], tower: &Top) -> Solved {
         let (Some(x), Some(y)) = (rotation(x), rotation(y)) else {
             return undecided("a rotation of a dyad");
         };
-        list.push(Root { turns: vec![Number::one(), x, y], shifts: Vec::new(), multiplicity });
+        list.push(Root { turns: vec![Isotropic::one(), x, y], shifts: Vec::new(), multiplicity });
     }
     Solved::Roots(list)
 }
 
 /// A dyad of which some joints coincide.
-fn coincident(c: &[Number], zero: [bool; 3]) -> Solved {
+fn coincident<R: Decidable>(c: &[Isotropic<R>], zero: [bool; 3]) -> Solved<R> {
     // On complex branches one half of a number may be zero alone; such assemblies are not decided here.
     if c.iter().zip(zero).any(|(n, zero)| zero && !n.is_zero()) {
         return undecided("half of a complex distance");
     }
-    let square = |n: &Number| n.z.mul(&n.w);
+    let square = |n: &Isotropic<R>| n.z.mul(&n.w);
     // The rotations, and whether each turns along the curve.
-    let curve = |x: Number, y: Number, turns: [bool; 2]| {
-        let turned = |n: &Number, by: &Number, turns: bool| if turns { n.mul(by) } else { n.clone() };
-        let one = |by: Number| {
-            let turns = vec![Number::one(), turned(&x, &by, turns[0]), turned(&y, &by, turns[1])];
+    let curve = |x: Isotropic<R>, y: Isotropic<R>, turns: [bool; 2]| {
+        let turned = |n: &Isotropic<R>, by: &Isotropic<R>, turns: bool| if turns { n.mul(by) } else { n.clone() };
+        let one = |by: Isotropic<R>| {
+            let turns = vec![Isotropic::one(), turned(&x, &by, turns[0]), turned(&y, &by, turns[1])];
             Root { turns, shifts: Vec::new(), multiplicity: 1 }
         };
         Solved::Curve(samples().map(one).to_vec())
@@ -161,12 +206,12 @@ fn coincident(c: &[Number], zero: [bool; 3]) -> Solved {
     let same = |a: usize, b: usize| square(&c[a]).sub(&square(&c[b])).vanishes();
     let quotient = |a: usize, b: usize| c[b].z.inverse().map(|inverse| c[a].z.mul(&inverse).neg()).and_then(rotation);
     match zero {
-        [true, true, true] => curve(Number::one(), Number::one(), [true, false]),
+        [true, true, true] => curve(Isotropic::one(), Isotropic::one(), [true, false]),
         [true, false, false] => match same(1, 2) {
             None => undecided("the difference of two lengths of a dyad"),
             Some(false) => Solved::Roots(Vec::new()),
             Some(true) => match quotient(2, 1) {
-                Some(x) => curve(x, Number::one(), [true, true]),
+                Some(x) => curve(x, Isotropic::one(), [true, true]),
                 None => undecided("a length of a dyad"),
             },
         },
@@ -176,8 +221,8 @@ fn coincident(c: &[Number], zero: [bool; 3]) -> Solved {
                 None => undecided("the difference of two lengths of a dyad"),
                 Some(false) => Solved::Roots(Vec::new()),
                 Some(true) => match quotient(0, other) {
-                    Some(turn) if other == 2 => curve(Number::one(), turn, [true, false]),
-                    Some(turn) => curve(turn, Number::one(), [false, true]),
+                    Some(turn) if other == 2 => curve(Isotropic::one(), turn, [true, false]),
+                    Some(turn) => curve(turn, Isotropic::one(), [false, true]),
                     None => undecided("a length of a dyad"),
                 },
             }
@@ -188,36 +233,36 @@ fn coincident(c: &[Number], zero: [bool; 3]) -> Solved {
 }
 
 /// `c0 + c1 x + u s = 0`: the slide is fixed in the first class.
-fn turn_and_slide(c0: &Number, c1: &Number, u: &Number, tower: &Top) -> Solved {
+fn turn_and_slide<R: Decidable>(c0: &Isotropic<R>, c1: &Isotropic<R>, u: &Isotropic<R>, tower: &Top) -> Solved<R> {
     let middle = u.w.mul(&c0.z).sub(&u.z.mul(&c0.w));
     let (a, c) = (u.w.mul(&c1.z), u.z.mul(&c1.w).neg());
     let Some(inverse) = u.z.inverse() else { return undecided("the direction of a slide") };
-    let shift = |x: &Number| scalar(&c0.z.add(&c1.z.mul(&x.z)).mul(&inverse).neg());
-    with_slide(roots(&a, &middle, &c, tower), c0, &middle, shift, &inverse)
+    let shift = |x: &Isotropic<R>| scalar(&c0.z.add(&c1.z.mul(&x.z)).mul(&inverse).neg());
+    with_slide(roots(&a, &middle, &c, tower), c0, shift, &inverse)
 }
 
 /// `c0 + c1 x + u x s = 0`: the slide is fixed in the class that turns.
-fn slide_on_turn(c0: &Number, c1: &Number, u: &Number, tower: &Top) -> Solved {
+fn slide_on_turn<R: Decidable>(c0: &Isotropic<R>, c1: &Isotropic<R>, u: &Isotropic<R>, tower: &Top) -> Solved<R> {
     let middle = u.z.mul(&c1.w).sub(&u.w.mul(&c1.z));
     let (a, c) = (u.z.mul(&c0.w), u.w.mul(&c0.z).neg());
     let Some(inverse) = u.z.inverse() else { return undecided("the direction of a slide") };
-    let shift = |x: &Number| scalar(&c0.z.mul(&x.w).add(&c1.z).mul(&inverse).neg());
-    with_slide(roots(&a, &middle, &c, tower), c1, &middle, shift, &inverse)
+    let shift = |x: &Isotropic<R>| scalar(&c0.z.mul(&x.w).add(&c1.z).mul(&inverse).neg());
+    with_slide(roots(&a, &middle, &c, tower), c1, shift, &inverse)
 }
 
 /// The solutions with one rotation and one slide. Where the rotation is free, the slide is given by the number `fixed`.
-fn with_slide(
-    found: Result<Option<Vec<(Value, usize)>>, &'static str>,
-    fixed: &Number,
-    _middle: &Value,
-    shift: impl Fn(&Number) -> Number,
-    inverse: &Value,
-) -> Solved {
+fn with_slide<R: Decidable>(
+    found: Result<Option<Vec<(R, usize)>>, &'static str>,
+    fixed: &Isotropic<R>,
+    shift: impl Fn(&Isotropic<R>) -> Isotropic<R>,
+    inverse: &R,
+) -> Solved<R> {
     match found {
         Err(what) => undecided(what),
         Ok(None) => {
             let shifts = vec![scalar(&fixed.z.mul(inverse).neg())];
-            let one = |by: Number| Root { turns: vec![Number::one(), by], shifts: shifts.clone(), multiplicity: 1 };
+            let one =
+                |by: Isotropic<R>| Root { turns: vec![Isotropic::one(), by], shifts: shifts.clone(), multiplicity: 1 };
             Solved::Curve(samples().map(one).to_vec())
         }
         Ok(Some(found)) => {
@@ -225,7 +270,7 @@ fn with_slide(
             for (x, multiplicity) in found {
                 let Some(x) = rotation(x) else { return undecided("a rotation of a dyad") };
                 let shifts = vec![shift(&x)];
-                list.push(Root { turns: vec![Number::one(), x], shifts, multiplicity });
+                list.push(Root { turns: vec![Isotropic::one(), x], shifts, multiplicity });
             }
             Solved::Roots(list)
         }
@@ -233,7 +278,7 @@ fn with_slide(
 }
 
 /// `c0 + u s + v t = 0`: two slides and no rotation.
-fn two_slides(c0: &Number, u: &Number, v: &Number) -> Solved {
+fn two_slides<R: Decidable>(c0: &Isotropic<R>, u: &Isotropic<R>, v: &Isotropic<R>) -> Solved<R> {
     let determinant = u.z.mul(&v.w).sub(&u.w.mul(&v.z));
     let off = [c0.z.mul(&v.w).sub(&c0.w.mul(&v.z)), u.z.mul(&c0.w).sub(&u.w.mul(&c0.z))];
     match determinant.vanishes() {
@@ -243,14 +288,34 @@ fn two_slides(c0: &Number, u: &Number, v: &Number) -> Solved {
             Some(false) => Solved::Roots(Vec::new()),
             Some(true) => {
                 let Some(inverse) = u.z.inverse() else { return undecided("the direction of a slide") };
-                let shifts = vec![scalar(&c0.z.mul(&inverse).neg()), Number::zero()];
-                Solved::Curve(vec![Root { turns: vec![Number::one()], shifts, multiplicity: 1 }])
+                let shifts = vec![scalar(&c0.z.mul(&inverse).neg()), Isotropic::zero()];
+                Solved::Curve(vec![Root { turns: vec![Isotropic::one()], shifts, multiplicity: 1 }])
             }
         },
         Some(false) => {
             let Some(inverse) = determinant.inverse() else { return undecided("the angle between two slides") };
             let shifts = off.iter().map(|x| scalar(&x.mul(&inverse).neg())).collect();
-            Solved::Roots(vec![Root { turns: vec![Number::one()], shifts, multiplicity: 1 }])
+            Solved::Roots(vec![Root { turns: vec![Isotropic::one()], shifts, multiplicity: 1 }])
         }
     }
+}
+
+/// Returns whether each root of a group with real data is real: its mirror image is a root, too. `None` where this is undecided.
+#[must_use]
+pub fn realness<R: Decidable>(roots: &[Root<R>]) -> Vec<Option<bool>> {
+    let all = |root: &Root<R>| root.turns.iter().chain(&root.shifts).cloned().collect::<Vec<Isotropic<R>>>();
+    let apart = |one: &[Isotropic<R>], two: &[Isotropic<R>]| {
+        one.iter().zip(two).any(|(a, b)| a.z.sub(&b.z).vanishes() == Some(false))
+    };
+    let roots: Vec<Vec<Isotropic<R>>> = roots.iter().map(all).collect();
+    // The mirror image of a number is the one of the conjugate assembly.
+    let mirrored = |number: &Isotropic<R>| Isotropic { z: number.w.conjugate(), w: number.z.conjugate() };
+    let one = |k: usize| {
+        let image: Vec<Isotropic<R>> = roots[k].iter().map(mirrored).collect();
+        if apart(&image, &roots[k]) {
+            return Some(false);
+        }
+        (0..roots.len()).filter(|j| *j != k).all(|j| apart(&image, &roots[j])).then_some(true)
+    };
+    (0..roots.len()).map(one).collect()
 }

@@ -85,6 +85,16 @@ pub struct State<R = Value> {
     pub multiplicity: usize,
 }
 
+impl<R> State<R> {
+    /// Returns the state in other numbers.
+    #[must_use]
+    pub fn map<S>(&self, image: impl Fn(&R) -> S) -> State<S> {
+        let place = |place: &Place<R>| Place { turn: place.turn.map(&image), origin: place.origin.map(&image) };
+        let bodies = self.bodies.iter().map(|(cluster, own)| (*cluster, place(own))).collect();
+        State { bodies, top: self.top.clone(), real: self.real, multiplicity: self.multiplicity }
+    }
+}
+
 impl<R: Ring> State<R> {
     /// Returns the state with every body on its own; square roots are kept exactly in towers of at most `highest` generators.
     #[must_use]

@@ -102,7 +102,7 @@ pub fn result(file: &LinkageFile, case: &LinkageCase, index: usize, answer: &Lin
         let numbers: Vec<usize> = family.joints.iter().map(|joint| joint + 1).collect();
         json!({ "dimension": family.dimension, "joints": numbers, "labels": labels, "distance": 0, "sample": places(linkage, &family.sample), "samples": [] })
     });
-    json!({
+    let mut result = json!({
         "case": index,
         "asked": asked_json(linkage, &case.given),
         "verdict": {
@@ -123,7 +123,11 @@ pub fn result(file: &LinkageFile, case: &LinkageCase, index: usize, answer: &Lin
         "families": families.collect::<Value>(),
         "warnings": [],
         "timings_us": { "solve": tenths(answer.solve_us) },
-    })
+    });
+    if !answer.listed {
+        result["listed"] = json!(false);
+    }
+    result
 }
 
 fn value(z: &Coordinate, real: bool) -> Value {
@@ -247,6 +251,7 @@ pub fn text(file: &LinkageFile, case: &LinkageCase, index: usize, answer: &Linka
             &format!("family of dimension {}: the joints {} move", family.dimension, labels.join(", ")),
         );
     }
-    let _ = writeln!(text, "\n{} in {}", counted(answer.modes.len(), "assembly"), duration(answer.solve_us));
+    let listed = if answer.listed { "" } else { " listed" };
+    let _ = writeln!(text, "\n{}{listed} in {}", counted(answer.modes.len(), "assembly"), duration(answer.solve_us));
     text
 }

@@ -130,3 +130,14 @@ fn assemblies_beside_a_motion_are_listed() {
     }
     assert!(answer.verdict.reason.contains("all regular assemblies"), "{}", answer.verdict.reason);
 }
+
+#[test]
+fn dyads_that_turn_beside_one_another_have_two_freedoms() {
+    let answer = of_bodies(&json!({
+        "f": { "A": [0, 0], "B": [1, 0], "D": [1, 0], "E": [2, 0], "G": [2, 0] },
+        "b": { "B": [1, 0], "C": [3, 0] }, "a": { "D": [1, 0], "C": [3, 0] },
+        "e": { "E": [2, 0], "F": [4, 0] }, "c": { "G": [2, 0], "F": [4, 0] }
+    }));
+    let verdict = &answer.verdict;
+    assert_eq!((verdict.status, verdict.proof, verdict.self_motion), (Status::SelfMotion, Proof::Proved, 2));
+}

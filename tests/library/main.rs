@@ -19,6 +19,7 @@ mod golden;
 mod house;
 mod laws;
 mod linkage_accuracy;
+mod linkage_count;
 mod linkage_derive;
 mod linkage_files;
 mod linkage_proof;

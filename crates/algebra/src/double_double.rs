@@ -58,6 +58,12 @@ impl DoubleDouble {
         Self { high, low }
     }
 
+    /// Returns the two numbers of which this is the sum, the larger one first.
+    #[must_use]
+    pub fn parts(self) -> [f64; 2] {
+        [self.high, self.low]
+    }
+
     /// Returns the nearest f64.
     #[must_use]
     pub fn to_f64(self) -> f64 {

@@ -281,7 +281,7 @@ pub fn derive_linkage(linkage: &Linkage, given: &[Given]) -> Result<LinkageDeriv
         return derive_geared(linkage, given);
     }
     let merged = glued(linkage, given)?.0;
-    let solved = |complex| assemblies(linkage, given, Asked { complex, stop: &AtomicBool::new(false) });
+    let solved = |complex| assemblies(linkage, given, Asked { complex, stop: &AtomicBool::new(false), near: None });
     let mut found = solved(false)?;
     let (mut polynomials, mut warnings) = of_groups(linkage, given, &found, &merged);
     // The complex assemblies of a large group are needed for the count of its polynomial alone.

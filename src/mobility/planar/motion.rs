@@ -8,6 +8,7 @@ use crate::error::Result;
 use crate::kinematics::linkage::{Linkage, Pair};
 use crate::linkage::answer::{LinkageAnswer, LinkageFamily, solve_asked};
 use crate::linkage::assembly::Asked;
+use crate::linkage::many::of_many;
 use crate::linkage::state::{State, number, turned};
 use crate::verdict::{Code, Proof, Status, Verdict};
 use std::sync::atomic::Ordering;
@@ -16,12 +17,15 @@ use std::sync::atomic::Ordering;
 /// little later.
 const LAST: usize = 8;
 
-/// Finds all assemblies of a case. Where their list is not proved and nothing is given, the mobility at the configuration of the file
+/// Finds all assemblies of a case, or counts them where they are too many for a list. Where their list is not proved and nothing is given, the mobility at the configuration of the file
 /// shows whether they are infinitely many.
 ///
 /// # Errors
 /// As [`solve_asked`].
 pub fn solve_or_move(file: &LinkageFile, case: &LinkageCase, asked: Asked<'_>) -> Result<LinkageAnswer> {
+    if let Some(answer) = of_many(&file.linkage, &case.given, file.accuracy(case), asked)? {
+        return Ok(answer);
+    }
     let answer = solve_asked(&file.linkage, &case.given, file.accuracy(case), asked)?;
     let Verdict { status, proof, self_motion, .. } = answer.verdict;
     let is_open = match status {

@@ -193,7 +193,7 @@ impl Subject for LinkageCase {
     }
 
     fn real_modes(&self) -> Option<usize> {
-        let asked = Asked { complex: true, stop: &AtomicBool::new(false) };
+        let asked = Asked { complex: true, stop: &AtomicBool::new(false), near: None };
         let answer = solve_asked(&self.linkage, &self.given, Accuracy::Exact, asked).ok()?;
         let is_complete = matches!(answer.verdict.status, Status::Complete | Status::Unreachable);
         is_complete.then(|| answer.modes.iter().filter(|mode| mode.real).count())

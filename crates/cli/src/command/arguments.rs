@@ -171,7 +171,8 @@ pub struct SolveOptions {
     /// Platforms: the lengths of the legs at the poses of --at, --poses or the file, beside their limits; nothing is solved
     #[arg(long, conflicts_with_all = ["complex", "real", "legs", "scene", "follow", "near", "turns", "derivatives", "tolerance", "certificate"])]
     pub inverse: bool,
-    /// Sort real solutions by their distance to these joint values, of a platform to this pose of the plate, as in --at
+    /// Sort real solutions by their distance to these joint values, of a platform to this pose of the plate, as in --at; of a linkage in the
+    /// plane to the values of its joints or of some: A=10 deg, B=0.5
     #[arg(long, value_name = "Q", allow_hyphen_values = true)]
     pub near: Option<String>,
     /// Every representative of an angle within the joint limits, not one alone

@@ -23,6 +23,7 @@ pub fn run(options: &SolveOptions, file: &LinkageFile, output: Output) -> Result
     let stop = stop_on_interrupt();
     let file = &*posed(options.asked.input.as_deref(), file)?;
     let wanted = wanted(options.asked.input.as_deref(), file)?;
+    let near = options.near.as_deref().map(|text| file.near(text)).transpose()?;
     let mut output = output;
     let mut exit = Exit::Complete;
     let mut results = Vec::new();
@@ -34,7 +35,7 @@ pub fn run(options: &SolveOptions, file: &LinkageFile, output: Output) -> Result
         }
         let case = &file.cases[index];
         let line = case.given.first().map_or(case.line, looproot::internal::kinematics::linkage::Given::line);
-        let asked = Asked { complex: options.complex, stop: &stop };
+        let asked = Asked { complex: options.complex, stop: &stop, near: near.as_deref() };
         let answer = solve_or_move(file, case, asked).map_err(|error| error.at(&options.mechanism, line))?;
         exit = exit.max(code(&answer.verdict));
         // Complex assemblies that were asked for and not looked for, or that form curves.
@@ -102,12 +103,19 @@ pub fn code(verdict: &Verdict) -> Exit {
     }
 }
 
+/// Refuses the options that linkages on the sphere and in space do not have.
+pub fn refuse_beside_plane(options: &SolveOptions) -> Result<(), Error> {
+    if options.near.is_some() {
+        return Err(Error::Invalid("found --near for a linkage that is not in the plane, which has none".to_owned()));
+    }
+    refuse(options)
+}
+
 /// Refuses the options that linkages do not have.
-pub fn refuse(options: &SolveOptions) -> Result<(), Error> {
+fn refuse(options: &SolveOptions) -> Result<(), Error> {
     let found = [
         (options.poses.is_some(), "--poses"),
         (options.derivatives, "--derivatives"),
-        (options.near.is_some(), "--near"),
         (options.turns, "--turns"),
         (options.tolerance.is_some(), "--tolerance"),
     ];

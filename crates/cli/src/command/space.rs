@@ -2,7 +2,7 @@
 
 use super::arguments::SolveOptions;
 use super::exit::{Exit, Fault};
-use super::linkage::{code, refuse, written};
+use super::linkage::{code, refuse_beside_plane, written};
 use super::output::Output;
 use looproot::internal::catalogue::SpaceFile;
 use looproot::internal::error::Error;
@@ -42,7 +42,7 @@ pub fn wanted(input: Option<&str>, file: &SpaceFile) -> Result<std::ops::Range<u
 
 /// Finds every assembly of every case, or of the requested one.
 pub fn run(options: &SolveOptions, file: &SpaceFile, output: Output) -> Result<Exit, Fault> {
-    refuse(options)?;
+    refuse_beside_plane(options)?;
     if options.scene {
         return Err(Error::Unsupported("linkages in space are not drawn yet".to_owned()).into());
     }

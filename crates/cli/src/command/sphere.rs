@@ -4,7 +4,7 @@ use super::arguments::{DeriveOptions, SolveOptions, SweepOptions};
 use super::certificates::Certificates;
 use super::discriminant::{self, Asked};
 use super::exit::{Exit, Fault};
-use super::linkage::{code, refuse, written};
+use super::linkage::{code, refuse_beside_plane, written};
 use super::output::{Output, pool};
 use super::space_instant::on_sphere;
 use super::sweep::{judged, range};
@@ -57,7 +57,7 @@ pub fn wanted(input: Option<&str>, file: &SphereFile) -> Result<std::ops::Range<
 
 /// Finds every assembly of every case, or of the requested one.
 pub fn run(options: &SolveOptions, file: &SphereFile, output: Output) -> Result<Exit, Fault> {
-    refuse(options)?;
+    refuse_beside_plane(options)?;
     let mut output = output;
     let mut exit = Exit::Complete;
     let mut results = Vec::new();
