@@ -149,6 +149,22 @@ impl Placement {
         self.part(part, part, part)
     }
 
+    /// Returns whether the z axis is proved to be parallel to that of the base, in the same or in the opposite direction.
+    #[must_use]
+    pub fn keeps_z(&self) -> bool {
+        fn is_kept<R: Ring>(motion: &Motion<R>) -> bool {
+            motion.rotation[2][..2].iter().all(Ring::is_zero)
+        }
+        match (&self.given, &self.closed) {
+            (None, _) => is_kept(&self.exact.motion()),
+            (Some(_), Some(ClosedForm::Entries(motion))) => RealField::containing(motion.rotation[2][..2].iter())
+                .is_some_and(|field| {
+                    motion.rotation[2][..2].iter().all(|x| field.element(x).is_some_and(|x| x.is_zero()))
+                }),
+            (Some(given), _) => is_kept(&given.nearest()),
+        }
+    }
+
     /// A part of the motion, taken of its rational entries and of what they stand for.
     fn part(
         &self,

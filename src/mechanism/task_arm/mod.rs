@@ -5,6 +5,7 @@ mod choice;
 mod judge;
 mod redundant;
 mod trace;
+mod upright;
 
 use super::single_loop::SingleLoop;
 use super::{FullMode, Solution};
@@ -50,6 +51,8 @@ pub(super) struct TaskArm {
     /// The joint that the task leaves free as it stands along the tool's axis.
     coaxial: Option<usize>,
     plan: Plan,
+    /// The same arm asked for the direction of the tool's axis, for poses at which the tilt fixes it.
+    upright: OnceLock<Result<Box<TaskArm>>>,
 }
 
 /// The way in which the loop is completed to six unknowns.
@@ -60,6 +63,8 @@ enum Plan {
     Filled(Vec<(Vec<VirtualJoint>, Inner)>),
     /// This number of joints has to be held, in one of these ways.
     Redundant(usize, Vec<Inner>),
+    /// No choice of conditions is regular where the tool may tilt, as of arms whose tool never does.
+    Dependent(Error),
 }
 
 /// A loop of six unknowns, prepared at its first use.
@@ -112,12 +117,16 @@ impl TaskArm {
             held,
             coaxial,
             plan: Plan::Redundant(0, Vec::new()),
+            upright: OnceLock::new(),
         };
         let unknowns = total - arm.held.len() + arm.task.free();
         arm.plan = match unknowns {
             6 => Plan::Whole(Box::new(Inner { held: arm.held.clone(), ..Inner::default() })),
             7.. => Plan::Redundant(unknowns - 6, arm.with_more_held(unknowns - 6)),
-            _ => Plan::Filled(arm.filled(6 - unknowns)?),
+            _ => match arm.filled(6 - unknowns) {
+                Err(error) if arm.task == Task::PositionTilt => Plan::Dependent(error),
+                choices => Plan::Filled(choices?),
+            },
         };
         Ok(arm)
     }
@@ -166,7 +175,11 @@ impl TaskArm {
         } else {
             (case, pose)
         };
+        if let Some(is_exact) = self.stands_upright(pose, tolerance) {
+            return self.solve_upright(is_exact, case, &mut with);
+        }
         let mut solution = match &self.plan {
+            Plan::Dependent(error) => return Err(error.clone()),
             Plan::Whole(inner) => {
                 let (solution, found) = self.by(inner, case, pose, &mut with)?;
                 let modes = found.into_iter().map(|found| FullMode { error: Some(found.miss), ..found.mode }).collect();
@@ -181,8 +194,10 @@ impl TaskArm {
                 Solution { solve_us: start.elapsed().as_secs_f64() * 1e6, ..solution }
             }
         };
-        if let (Some(joint), false) = (self.coaxial, matches!(self.plan, Plan::Redundant(..))) {
-            redundant::free(&mut solution, joint);
+        match (self.coaxial, &self.plan) {
+            (Some(joint), Plan::Redundant(..)) => redundant::free_besides(&mut solution, joint),
+            (Some(joint), _) => redundant::free(&mut solution, joint),
+            (None, _) => {}
         }
         Ok(solution)
     }

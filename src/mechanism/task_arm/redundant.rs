@@ -75,6 +75,22 @@ pub(super) fn free(solution: &mut Solution, joint: usize) {
     (verdict.complex, verdict.real, verdict.certified) = (0, 0, 0);
 }
 
+/// Adds to every family the turns of a free joint, one more dimension.
+pub(super) fn free_besides(solution: &mut Solution, joint: usize) {
+    if solution.families.is_empty() {
+        return;
+    }
+    for family in &mut solution.families {
+        family.dimension += 1;
+        family.moving.push(joint);
+        family.moving.sort_unstable();
+        family.moving.dedup();
+    }
+    let verdict = &mut solution.verdict;
+    verdict.self_motion += 1;
+    verdict.reason = format!("joint {} turns freely along every family; with it held, {}", joint + 1, verdict.reason);
+}
+
 impl TaskArm {
     /// Returns the ways to hold `more` further joints, those that leave the loop most regular first.
     pub(super) fn with_more_held(&self, more: usize) -> Vec<Inner> {

@@ -4,11 +4,14 @@ use super::{Inner, TaskArm};
 use crate::kinematics::chain::{Chain, Placement};
 use crate::kinematics::closed_loop::{Layout, OpenLoop};
 use crate::kinematics::screws::Behind;
+use crate::kinematics::task::Task;
 use crate::kinematics::tolerance::{PoseError, Tolerance};
 use crate::mechanism::Family;
 use crate::mechanism::family::{Joints, Shape};
 use crate::solve::curve::{CLOSES_WITHIN, Curve, INPUT, Point};
 use crate::solve::explorer::{Explorer, Piece};
+use crate::solve::walk::{Trace, apart};
+use std::f64::consts::PI;
 
 /// A miss below this part of the reach is the rounding of a curve that was followed in f64.
 const ROUNDING: f64 = 1e-10;
@@ -23,9 +26,27 @@ pub(super) struct Tracer<'a> {
     /// Residual up to which near configurations count as closed, in radians and scaled lengths.
     within: f64,
     tolerance: Tolerance,
-    /// For every variable of a point the joint of the arm; none for virtual joints.
-    joints: [Option<usize>; 7],
+    /// What moves by every variable of a point.
+    movers: [Mover; 7],
     found: Vec<Found>,
+}
+
+/// What a variable of the loop moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Mover {
+    /// A joint of the arm.
+    Joint(usize),
+    /// A virtual joint of the task.
+    Virtual(usize),
+}
+
+impl Mover {
+    fn joint(self) -> Option<usize> {
+        match self {
+            Self::Joint(joint) => Some(joint),
+            Self::Virtual(_) => None,
+        }
+    }
 }
 
 /// A family that was met.
@@ -38,13 +59,12 @@ struct Found {
 }
 
 impl<'a> Tracer<'a> {
-    /// The loop at a pose; `None` where a spherical joint stands in it, or it has not seven variables.
+    /// The loop at a pose; `None` where it has not seven variables.
     pub(super) fn of(of: &'a TaskArm, pose: &'a Placement, tolerance: Tolerance) -> Option<Self> {
-        let mut behind = of.behind(pose);
-        if behind.contains(&Behind::Spherical) {
-            return None;
-        }
-        behind.push(Behind::Constant(Box::new(pose.undone())));
+        let mut behind = of.task.behind_one_by_one(&|| Behind::Constant(Box::new(pose.turned_back())));
+        // The rotation of a pose of which only the tilt is asked stands between its two virtual joints.
+        let end = if of.task == Task::PositionTilt { pose.without_rotation().undone() } else { pose.undone() };
+        behind.push(Behind::Constant(Box::new(end)));
         let chain: Chain = of.chain.in_screws(&of.held, &behind)?;
         let variables = chain.variables();
         if variables.len() != 7 {
@@ -54,17 +74,16 @@ impl<'a> Tracer<'a> {
         let open: OpenLoop<f64> = chain.open_loop(&layout).ok()?;
         let kept = of.kept(&Inner { held: of.held.clone(), ..Inner::default() });
         let order = layout.joint_variables();
-        let joints: [Option<usize>; 7] = std::array::from_fn(|k| {
-            let own = if k == INPUT { Some(0) } else { order.get(k).copied().flatten() };
-            own.and_then(|own| kept.get(own).copied())
-        });
-        // Virtual joints have no value in a configuration of the arm: a curve through one is not known by it.
-        let is_whole = joints.iter().all(Option::is_some);
+        // Virtual joints stand behind those of the arm.
+        let mover = |own: usize| kept.get(own).map_or_else(|| Mover::Virtual(own - kept.len()), |k| Mover::Joint(*k));
+        let mut movers = [Mover::Joint(0); 7];
+        for (k, place) in movers.iter_mut().enumerate() {
+            *place = mover(if k == INPUT { 0 } else { order.get(k).copied().flatten()? });
+        }
         let curve = Curve::new(&open, [false; 6], variables[0].variable);
-        let turn = joints.iter().position(Option::is_some).unwrap_or(INPUT);
-        let scale = (0..7).map(|k| curve.unit(k)).fold(curve.unit(turn), f64::max);
+        let scale = (0..7).map(|k| curve.unit(k)).fold(f64::MIN_POSITIVE, f64::max);
         let within = tolerance.angle.max(tolerance.length / scale).max(CLOSES_WITHIN);
-        is_whole.then_some(Self { of, pose, curve, within, tolerance, joints, found: Vec::new() })
+        Some(Self { of, pose, curve, within, tolerance, movers, found: Vec::new() })
     }
 
     /// Follows the families through a configuration, unless they are known. A configuration that only comes near the pose need
@@ -88,29 +107,85 @@ impl<'a> Tracer<'a> {
         }
     }
 
+    /// The point of a configuration; where the pose is missed, with virtual joints that come near it.
     fn point(&self, q: &[f64]) -> Point {
-        std::array::from_fn(|k| self.joints[k].map_or(0.0, |joint| q[joint]) / self.curve.unit(k))
+        let virtual_ones = self.of.task.virtual_values(&self.of.forward.pose(q), &self.pose.float);
+        std::array::from_fn(|k| {
+            let value = match self.movers[k] {
+                Mover::Joint(joint) => q[joint],
+                Mover::Virtual(number) => virtual_ones[number],
+            };
+            value / self.curve.unit(k)
+        })
+    }
+
+    /// The other point of the same configuration: three rotations in place of a spherical joint turn the tool alike in two ways.
+    fn twin(&self, point: &Point) -> Option<Point> {
+        (self.of.task == Task::Position).then(|| {
+            std::array::from_fn(|k| match self.movers[k] {
+                Mover::Virtual(1) => PI - point[k],
+                Mover::Virtual(_) => point[k] + PI,
+                Mover::Joint(_) => point[k],
+            })
+        })
+    }
+
+    /// Whether a configuration lies on a piece.
+    fn holds(&self, explorer: &Explorer<'_>, piece: &Piece, point: &Point) -> bool {
+        explorer.holds(piece, point) || self.twin(point).is_some_and(|twin| explorer.holds(piece, &twin))
     }
 
     /// Follows the families through a point that closes the loop within a residual, unless they are known.
     fn follow_from(&mut self, start: &Point, within: f64) {
         let explorer = Explorer::new(&self.curve, within);
-        let holds = |known: &Found| Explorer::new(&self.curve, known.within.max(within)).holds(&known.piece, start);
+        let holds =
+            |known: &Found| self.holds(&Explorer::new(&self.curve, known.within.max(within)), &known.piece, start);
         if self.found.iter().any(holds) {
             return;
         }
+        let mut new: Vec<Found> = Vec::new();
         for piece in explorer.pieces(start) {
+            // Where virtual joints alone move, the arm stands still.
+            if !(0..7).any(|k| piece.moving[k] && self.movers[k].joint().is_some()) {
+                continue;
+            }
+            let piece = self.once_round(piece, within);
             let middle = piece.trace.points[piece.trace.points.len() / 2];
-            let is_known =
-                |known: &Found| known.piece.dimension >= piece.dimension && explorer.holds(&known.piece, &middle);
-            let Some(distance) = self.distance(&piece).filter(|_| !self.found.iter().any(is_known)) else { continue };
-            // A family contained in one of a larger dimension is dropped as a part of it.
-            self.found.retain(|known| {
-                let middle = &known.piece.trace.points[known.piece.trace.points.len() / 2];
-                known.piece.dimension >= piece.dimension || !explorer.holds(&piece, middle)
-            });
-            self.found.push(Found { piece, distance, within });
+            let is_known = |known: &Found| {
+                known.piece.dimension >= piece.dimension && self.holds(&explorer, &known.piece, &middle)
+            };
+            let is_new = !self.found.iter().chain(&new).any(is_known);
+            if let Some(distance) = self.distance(&piece).filter(|_| is_new) {
+                new.push(Found { piece, distance, within });
+            }
         }
+        // A family contained in one of a larger dimension is dropped as a part of it.
+        let mut all = std::mem::take(&mut self.found);
+        all.extend(new);
+        let explorer = Explorer::new(&self.curve, within);
+        let is_part = |known: &Found, of: &Piece| {
+            let middle = &known.piece.trace.points[known.piece.trace.points.len() / 2];
+            known.piece.dimension < of.dimension && self.holds(&explorer, of, middle)
+        };
+        let keeps: Vec<bool> = all.iter().map(|known| !all.iter().any(|other| is_part(known, &other.piece))).collect();
+        self.found = all.into_iter().zip(keeps).filter_map(|(known, is_kept)| is_kept.then_some(known)).collect();
+    }
+
+    /// A closed curve on which every configuration lies twice, cut to one time round.
+    fn once_round(&self, piece: Piece, within: f64) -> Piece {
+        let points = &piece.trace.points;
+        let Some(twin) = points.first().and_then(|first| self.twin(first)) else { return piece };
+        if piece.dimension != 1 || !piece.trace.is_closed {
+            return piece;
+        }
+        let (curve, turns) = (self.curve.unlocked(&piece.moving, within), self.curve.turns());
+        let is_between =
+            |pair: &[Point]| Trace { points: pair.to_vec(), is_closed: false }.holds(&curve, &twin, &turns);
+        let Some(last) = points.windows(2).position(is_between) else { return piece };
+        let way = apart(&twin, &points[last], &turns);
+        let end: Point = std::array::from_fn(|k| points[last][k] + way[k]);
+        let points = points[..=last].iter().copied().chain([end]).collect();
+        Piece { trace: Trace { points, is_closed: true }, ..piece }
     }
 
     /// Returns the largest distance of a family from the pose: 0 where it is rounding; `None` beyond the tolerance.
@@ -136,7 +211,8 @@ impl<'a> Tracer<'a> {
             let Found { piece, distance, within } = found;
             let explorer = Explorer::new(&self.curve, *within);
             let between = |first: usize, part: f64| Some(self.configuration(&explorer.between(piece, first, part)?));
-            let mut moving: Vec<usize> = (0..7).filter(|k| piece.moving[*k]).filter_map(|k| self.joints[k]).collect();
+            let mut moving: Vec<usize> =
+                (0..7).filter(|k| piece.moving[*k]).filter_map(|k| self.movers[k].joint()).collect();
             moving.sort_unstable();
             let points = piece.trace.points.iter().map(|point| self.configuration(point)).collect();
             let shape = Shape {
@@ -159,9 +235,9 @@ impl<'a> Tracer<'a> {
         for (joint, value) in &self.of.held {
             q[*joint] = value.value();
         }
-        for (k, joint) in self.joints.iter().enumerate() {
-            if let Some(joint) = joint {
-                q[*joint] = point[k] * self.curve.unit(k);
+        for (k, mover) in self.movers.iter().enumerate() {
+            if let Some(joint) = mover.joint() {
+                q[joint] = point[k] * self.curve.unit(k);
             }
         }
         q
