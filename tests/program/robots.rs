@@ -268,6 +268,63 @@ fn tasks_leave_the_tool_free() {
 }
 
 #[test]
+fn the_curves_of_a_task_with_a_freedom_more_are_followed() {
+    // A spherical virtual joint, and two that turn about the tool's axis and the base's.
+    for (name, robot, task) in [("four_curve", &FOUR[..], "position"), ("five_curve", &FIVE, "position+tilt")] {
+        let configurations = some(robot.len(), 2);
+        let path = file(&format!("{name}.urdf"), &urdf(robot));
+        let poses = file(&format!("{name}.csv"), &table(robot, &configurations));
+        let results = lines(&run(&["solve", &path, "--poses", &poses, "--jsonl", "--task", task]));
+        for (result, q) in results.iter().zip(&configurations) {
+            let families = result["families"].as_array().unwrap();
+            let samples = families.iter().flat_map(|own| own["samples"].as_array().unwrap());
+            let all: Vec<Vec<f64>> = samples.map(|own| values(&own["q"])).collect();
+            // Neighbours along a curve are no farther apart than its longest step, 0.1.
+            let nearest = all.iter().map(|own| apart(own, q)).fold(f64::INFINITY, f64::min);
+            assert!(nearest < 0.1, "{name}: {q:?} is missing: {nearest}");
+            let wanted = forward(robot, q);
+            for pose in all.iter().map(|own| forward(robot, own)) {
+                assert!((0..3).all(|i| (pose[i][3] - wanted[i][3]).abs() < 1e-9), "{name}: a sample is elsewhere");
+                assert!(task == "position" || (pose[2][2] - wanted[2][2]).abs() < 1e-9, "{name}: a sample is tilted");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_tilt_of_an_upright_tool_is_its_axis() {
+    // The joints that bend sum to 0: the tool stands upright, turned about the vertical by the angle whose half has the tangent 3/4.
+    let q = [2.0 * 0.75_f64.atan(), 0.4, 0.5, -0.9, 0.0];
+    let pose = forward(&FIVE, &q);
+    let at = format!("{}, {}, {}; 0.8, 0, 0, 0.6", pose[0][3], pose[1][3], pose[2][3]);
+    let path = file("upright.urdf", &urdf(&FIVE));
+    let asked = |task: &str| {
+        let output = run(&["solve", &path, "--at", &at, "--task", task, "--jsonl"]);
+        let result = lines(&output)[0].clone();
+        let modes: Vec<Vec<f64>> = result["modes"].as_array().unwrap().iter().map(|mode| values(&mode["q"])).collect();
+        (modes, result["verdict"]["status"].clone(), result["verdict"]["proof"].clone())
+    };
+    let tilt = asked("position+tilt");
+    assert_eq!((&tilt.1, &tilt.2), (&json!("complete"), &json!("proved")));
+    assert!(tilt.0.iter().any(|own| apart(own, &q) < 1e-6), "{:?}", tilt.0);
+    assert_eq!(tilt, asked("position+axis"));
+    // A SCARA arm has no other tilt.
+    let output = run(&["solve", "cobra600", "--at", "0.4, 0.2, 0.1; 0, 1, 0, 0", "--task", "position+tilt", "--jsonl"]);
+    let result = lines(&output)[0].clone();
+    assert_eq!(result["families"].as_array().unwrap().len(), 4, "{result}");
+}
+
+#[test]
+fn a_joint_that_the_task_leaves_free_is_a_dimension_of_every_family() {
+    // With the wrist in line joint 4 turns against joint 6, which turns freely about the tool's axis.
+    let output = run(&["solve", "puma560", "--joints", "0,0,0,0,0,0", "--task", "position+axis", "--jsonl"]);
+    let result = lines(&output)[0].clone();
+    let is_surface = |own: &Value| own["dimension"] == 2 && own["joints"] == json!([4, 6]);
+    assert!(result["families"].as_array().unwrap().iter().any(is_surface), "{result}");
+    assert_eq!(result["verdict"]["self_motion"], 2, "{result}");
+}
+
+#[test]
 fn bad_rows_are_reported_and_the_others_solved() {
     let path = file("rows.urdf", &urdf(&FIVE));
     let good = table(&FIVE, &some(5, 2));

@@ -175,7 +175,7 @@ impl TaskArm {
         } else {
             (case, pose)
         };
-        if let Some(is_exact) = self.stands_upright(pose, tolerance) {
+        if let Some(is_exact) = self.stands_upright(case, pose, tolerance) {
             return self.solve_upright(is_exact, case, &mut with);
         }
         let mut solution = match &self.plan {

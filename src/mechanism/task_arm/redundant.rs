@@ -48,8 +48,10 @@ pub(super) fn middle(forward: &Forward, limits: &[[f64; 2]], joint: usize) -> He
     place(forward, limits, joint, 0.5)
 }
 
-/// Turns every solution into the circle that a free joint makes of it.
+/// Turns every solution into the circle that a free joint makes of it, and every family into one of a dimension more.
 pub(super) fn free(solution: &mut Solution, joint: usize) {
+    turn_families(solution, joint);
+    let known = solution.families.len();
     let real: Vec<_> = std::mem::take(&mut solution.modes).into_iter().filter(|mode| mode.real).collect();
     for mode in real {
         let sample: Vec<f64> = mode.q.iter().map(|value| value.re).collect();
@@ -66,29 +68,35 @@ pub(super) fn free(solution: &mut Solution, joint: usize) {
         return;
     }
     let verdict = &mut solution.verdict;
-    let number = solution.families.len();
-    verdict.reason = format!("{number} families, each a full turn of joint {}; {}", joint + 1, verdict.reason);
+    let number = solution.families.len() - known;
+    let besides = if known > 0 { format!(", along {known} more it turns freely besides") } else { String::new() };
+    verdict.reason = format!("{number} families, each a full turn of joint {}{besides}; {}", joint + 1, verdict.reason);
     if verdict.status == Status::Complete {
         (verdict.status, verdict.code) = (Status::SelfMotion, Code::SelfMotion);
     }
-    verdict.self_motion = 1;
+    // A motion that the loop without this joint has already is one dimension more.
+    verdict.self_motion += 1;
     (verdict.complex, verdict.real, verdict.certified) = (0, 0, 0);
 }
 
-/// Adds to every family the turns of a free joint, one more dimension.
+/// Adds the turns of a free joint to the families of a redundant arm.
 pub(super) fn free_besides(solution: &mut Solution, joint: usize) {
     if solution.families.is_empty() {
         return;
     }
+    turn_families(solution, joint);
+    let verdict = &mut solution.verdict;
+    verdict.self_motion += 1;
+    verdict.reason = format!("joint {} turns freely along every family; with it held, {}", joint + 1, verdict.reason);
+}
+
+/// Makes every family one of a dimension more, along which a joint that was held turns.
+fn turn_families(solution: &mut Solution, joint: usize) {
     for family in &mut solution.families {
         family.dimension += 1;
         family.moving.push(joint);
         family.moving.sort_unstable();
-        family.moving.dedup();
     }
-    let verdict = &mut solution.verdict;
-    verdict.self_motion += 1;
-    verdict.reason = format!("joint {} turns freely along every family; with it held, {}", joint + 1, verdict.reason);
 }
 
 impl TaskArm {

@@ -1,6 +1,6 @@
 //! Poses at which the tool's axis is parallel to that of the base: there the tilt is one condition more than elsewhere.
 
-use super::{TaskArm, Tools};
+use super::{OF_FEW, Plan, TaskArm, Tools};
 use crate::catalogue::entry::{Case, Entry};
 use crate::error::Result;
 use crate::kinematics::chain::Placement;
@@ -15,7 +15,7 @@ impl TaskArm {
     ///
     /// The tilt then fixes the direction of the tool's axis, and the two virtual joints of the task are coaxial: its loop is singular in every
     /// configuration, and the loop of the axis is the one to solve.
-    pub(super) fn stands_upright(&self, pose: &Placement, tolerance: Option<Tolerance>) -> Option<bool> {
+    pub(super) fn stands_upright(&self, case: &Case, pose: &Placement, tolerance: Option<Tolerance>) -> Option<bool> {
         if self.task != Task::PositionTilt {
             return None;
         }
@@ -23,7 +23,15 @@ impl TaskArm {
             return Some(true);
         }
         let [x, y, _] = pose.float.rotation[2];
-        (x.hypot(y) <= tolerance.unwrap_or_default().angle).then_some(false)
+        (x.hypot(y) <= self.allowed(case, tolerance).angle).then_some(false)
+    }
+
+    /// The tolerance of a pose: of few joints that of the digits typed where no other one is given.
+    fn allowed(&self, case: &Case, tolerance: Option<Tolerance>) -> Tolerance {
+        tolerance.unwrap_or_else(|| match &self.plan {
+            Plan::Filled(_) | Plan::Dependent(_) => case.typed.unwrap_or(OF_FEW).or(OF_FEW),
+            Plan::Whole(_) | Plan::Redundant(..) => Tolerance::default(),
+        })
     }
 
     /// Solves a pose by the direction of the tool's axis.
