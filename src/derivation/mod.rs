@@ -35,7 +35,8 @@ pub use equation::Equation;
 pub use interpolation::Watch;
 pub use linkage::{
     Coordinate, Curve, CurveSymbolic, GroupPolynomial, InputOutput, LinkageDerivation, LinkageSymbolic, Symbol,
-    derive_linkage, derive_linkage_with_symbols, in_cosines, relation_by_values, trace, trace_mass, trace_with_symbols,
+    derive_linkage, derive_linkage_with_input, derive_linkage_with_symbols, in_cosines, relation_by_values, trace,
+    trace_mass, trace_with_symbols,
 };
 pub use polynomial::{ClosurePolynomial, Removed, Root};
 pub use pose::RootPose;

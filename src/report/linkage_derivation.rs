@@ -160,6 +160,16 @@ pub(super) fn terms(polynomial: &Polynomial<Int>, variables: usize) -> Value {
     polynomial.terms().map(term).collect()
 }
 
+/// How a relation with gears was found.
+fn interpolated(count: usize, agrees: bool) -> String {
+    let here =
+        if agrees { "" } else { "; at the value of the input it is another polynomial than the closure polynomial" };
+    format!(
+        "interpolated from closure polynomials at values of the input, and equal to those at {count} other values, drawn at random \
+         (probability of error below 2^-40){here}"
+    )
+}
+
 /// The names of the variables of a relation in cosines and sines.
 pub(super) fn circular(file: &LinkageFile, input: usize, body: usize) -> Vec<String> {
     let joint = &file.linkage.joints[input];
@@ -184,7 +194,8 @@ pub(super) fn ends(file: &LinkageFile, (input, body): (usize, usize), held: &[us
 
 /// Returns the heading of a relation in cosines and sines: that of a four-bar is Freudenstein's equation.
 pub(super) fn heading(file: &LinkageFile, joints: usize, is_turn: bool) -> &'static str {
-    let is_four_bar = joints == 4 && is_turn && file.linkage.joints.iter().all(|joint| !joint.is_prismatic());
+    let is_four_bar =
+        joints == 4 && is_turn && file.linkage.joints.iter().all(|joint| !joint.is_prismatic() && !joint.is_gear());
     if is_four_bar { "In cosines and sines, Freudenstein's equation" } else { "In cosines and sines" }
 }
 
@@ -278,6 +289,7 @@ pub fn json(file: &LinkageFile, case: usize, derivation: &LinkageDerivation) -> 
             "cosines": in_cosines(&found.polynomial, found.is_turn)
                 .map(|own| written(&rational(&own), &circular(file, found.input, found.body))),
             "agrees": found.agrees,
+            "compared": found.compared,
         })
     });
     let best = derivation.polynomials.first();
@@ -317,6 +329,9 @@ pub fn text(file: &LinkageFile, case: &LinkageCase, number: usize, derivation: &
         let variables = pair(file, found.input, found.body);
         let _ = writeln!(text, "\n{}", ends(file, (found.input, found.body), &found.held));
         let _ = writeln!(text, "  {}", written(&rational(&found.polynomial), &variables));
+        if let Some(count) = found.compared {
+            paragraph(&mut text, &interpolated(count, found.agrees));
+        }
         if let Some(own) = in_cosines(&found.polynomial, found.is_turn) {
             let names = circular(file, found.input, found.body);
             let heading = heading(file, found.joints, found.is_turn);

@@ -7,6 +7,7 @@ use super::number::counted;
 use super::table::paragraph;
 use crate::catalogue::LinkageFile;
 use crate::derivation::{Coordinate, CurveSymbolic, LinkageSymbolic, in_cosines};
+use crate::kinematics::linkage::LinkageJoint;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -24,16 +25,21 @@ fn cosines(file: &LinkageFile, found: &LinkageSymbolic) -> Option<String> {
     Some(written(&rational(&own), &names))
 }
 
-fn steps(found: &LinkageSymbolic) -> Vec<String> {
+fn steps(file: &LinkageFile, found: &LinkageSymbolic) -> Vec<String> {
     let Some(compared) = found.compared else {
         return vec![
             "The third moving link keeps its length: the squared distance of the ends of the two others is a constant."
                 .to_owned(),
         ];
     };
-    vec![
+    let derived = if file.linkage.joints.iter().any(LinkageJoint::is_gear) {
+        "The closure polynomial is derived at values of the input and of the symbols: a characteristic polynomial in the ring of polynomials \
+         modulo the equations of cycles and gears."
+    } else {
         "The relation of input and output is derived at values of the symbols: a determinant by Cramer's rule on the cycles of bodies."
-            .to_owned(),
+    };
+    vec![
+        derived.to_owned(),
         format!(
             "Those at different values are known up to a factor; the factors are a solution of linear equations, and the coefficients \
              are interpolated modulo 256 primes. The result equals the relations derived at {compared} other values, drawn at random."
@@ -81,7 +87,7 @@ pub fn text(file: &LinkageFile, found: &LinkageSymbolic) -> String {
     paragraph(&mut text, &verdict(file, found));
     symbols(&mut text, file, &found.symbols, &found.numbers);
     text.push_str("\nElimination\n");
-    for step in steps(found) {
+    for step in steps(file, found) {
         paragraph(&mut text, &step);
     }
     let [body, against] = [found.body, found.against].map(|body| &linkage.bodies[body].name);
@@ -110,7 +116,7 @@ pub fn json(file: &LinkageFile, case: usize, found: &LinkageSymbolic) -> Value {
         document[key] = Value::Null;
     }
     document["unknowns"] = json!([tangent(file, found.body)]);
-    document["steps"] = json!(steps(found));
+    document["steps"] = json!(steps(file, found));
     document["proved"] = json!(found.compared.is_none() && file.exact);
     document["symbols"] = found.symbols.iter().map(name).collect();
     document["numbers"] = found.numbers.iter().map(|one| format!("{} = {}", name(one), one.value)).collect();

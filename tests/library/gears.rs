@@ -2,16 +2,18 @@
 #![allow(clippy::unwrap_used)]
 
 use looproot::internal::catalogue::{Any, Format, LinkageFile, Options, any_from_text};
-use looproot::internal::derivation::derive_linkage;
+use looproot::internal::derivation::{Watch, derive_linkage, derive_linkage_with_input, derive_linkage_with_symbols};
 use looproot::internal::kinematics::linkage::{Accuracy, Given};
 use looproot::internal::linkage::answer::{LinkageAnswer, LinkageMode, solve};
 use looproot::internal::linkage::dyads::Dyads;
 use looproot::internal::sweep::{Range, sweep_linkage};
 use looproot::internal::verdict::{Proof, Status};
+use looproot_algebra::int::Int;
+use looproot_algebra::polynomial::Polynomial;
 use num_complex::Complex;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rug::Rational;
+use rug::{Integer, Rational};
 use std::f64::consts::PI;
 
 type Gaussian = (Rational, Rational);
@@ -282,6 +284,82 @@ fn closure_polynomials_have_all_assemblies_for_roots() {
         let first = &derivation.polynomials[0];
         assert_eq!(first.coefficients.distinct_real_roots() + usize::from(first.at_pi > 0), answer.verdict.real);
     }
+}
+
+/// The size of a polynomial in half-angle tangents at an input and at an angle, relative to its terms; a further exponent belongs to `other`.
+fn relative(polynomial: &Polynomial<Int>, tangent: f64, angle: Complex<f64>, other: f64) -> f64 {
+    let (sin, cos) = ((angle / 2.0).sin(), (angle / 2.0).cos());
+    let last = polynomial.degree(1);
+    let (mut value, mut size) = (Complex::new(0.0, 0.0), 0.0);
+    for (exponents, c) in polynomial.terms() {
+        let power = |k: usize| exponents.get(k).copied().unwrap_or(0);
+        let number =
+            c.to_integer().to_f64() * tangent.powi(power(0).cast_signed()) * other.powi(power(2).cast_signed());
+        let term = sin.powu(power(1)) * cos.powu(last - power(1)) * number;
+        value += term;
+        size += term.norm();
+    }
+    value.norm() / size
+}
+
+/// The file with another value of its input.
+fn at_input(text: &str, value: &Rational) -> String {
+    let (start, _) = text.rsplit_once("tan_half = ").unwrap();
+    format!("{start}tan_half = \"{value}\"\n")
+}
+
+/// The relation of input and output vanishes at every assembly, complex ones too, that `solve` finds at inputs drawn at random, and has no
+/// other roots there.
+#[test]
+fn the_relation_of_a_geared_five_bar_has_all_assemblies_for_roots() {
+    for (seed, ratio) in [(2, (-1, 1)), (3, (2, 1)), (5, (1, 2))] {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let text = planted_with(&mut random, "C", ratio).text;
+        let file = read(&text);
+        let given = &file.cases[0].given;
+        assert!(derive_linkage(&file.linkage, given).unwrap().input_output.is_none());
+        let derivation = derive_linkage_with_input(&file.linkage, given, &Watch::none()).unwrap();
+        assert_eq!(derivation.warnings, Vec::<String>::new());
+        let found = derivation.input_output.unwrap();
+        assert!(found.agrees && found.is_turn && found.compared == Some(20));
+        for _ in 0..3 {
+            let value = Rational::from((random.random_range(-50..50), random.random_range(1..30)));
+            let answer = solved(&at_input(&text, &value));
+            // Some inputs have complex assemblies alone, and are unreachable.
+            assert_eq!(answer.verdict.proof, Proof::Proved);
+            assert_eq!(answer.verdict.complex, found.polynomial.degree(1) as usize, "{ratio:?}");
+            for mode in &answer.modes {
+                let off = relative(&found.polynomial, value.to_f64(), mode.bodies[found.body].0, 1.0);
+                assert!(off < 1e-8, "{ratio:?} at {value}: {off}");
+            }
+        }
+        // Angles of no assembly are no roots.
+        assert!(relative(&found.polynomial, 0.37, Complex::new(1.234, 0.1), 1.0) > 1e-8);
+    }
+}
+
+/// A length as a symbol: the relation contains that of other lengths, and a third symbol is refused.
+#[test]
+fn the_relation_of_a_geared_five_bar_has_a_length_as_a_symbol() {
+    let mut random = ChaCha8Rng::seed_from_u64(7);
+    let file = read(&planted_with(&mut random, "C", (-1, 1)).text);
+    let given = &file.cases[0].given;
+    let with = |names: &[&str]| {
+        let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
+        derive_linkage_with_symbols(&file.linkage, given, &names, &Watch::none())
+    };
+    let found = with(&["crank.B.x"]).unwrap();
+    assert!(found.agrees && found.compared == Some(20));
+    let mut other = file.linkage.clone();
+    let length = Rational::from((7, 3));
+    found.symbols[0].put(&mut other, &length);
+    let own = derive_linkage_with_input(&other, given, &Watch::none()).unwrap().input_output.unwrap();
+    assert_eq!(own.body, found.body);
+    let at = found.polynomial.map(|c| Some(Rational::from(c.to_integer()))).unwrap();
+    let at = at.substitute(2, &Polynomial::constant(length)).primitive().0;
+    assert!(at == own.polynomial || at == own.polynomial.scale(&Int::from(Integer::from(-1))));
+    let refused = with(&["crank.B.x", "crank.B.y", "wheel.D.x"]).unwrap_err().to_string();
+    assert!(refused.contains("found 3 symbols, expected one to 2"), "{refused}");
 }
 
 /// A wheel on an arm, driven by the sun, drives a second wheel of the size of the sun: that one only moves along with the arm.

@@ -82,6 +82,9 @@ pub struct InputOutput {
     pub joints: usize,
     /// The polynomial in both.
     pub polynomial: Polynomial<Int>,
+    /// Number of other inputs, drawn at random, at which it equals the closure polynomial, where it is interpolated; `None` where it is a
+    /// determinant.
+    pub compared: Option<usize>,
     /// Whether it equals the closure polynomial at the value of the input.
     pub agrees: bool,
 }
@@ -505,7 +508,8 @@ fn relate(linkage: &Linkage, one: &Given, relation: &Relation, best: &GroupPolyn
     let polynomial = relation.in_metres(polynomial, linkage)?;
     let Relation { input, is_turn, body, against, .. } = *relation;
     let joints = relation.joints.len();
-    Some(InputOutput { input, is_turn, body, against, held: relation.held_joints(), joints, polynomial, agrees })
+    let held = relation.held_joints();
+    Some(InputOutput { input, is_turn, body, against, held, joints, polynomial, compared: None, agrees })
 }
 
 /// The value of an input as a relation has it.
@@ -529,6 +533,15 @@ impl InputNumber {
         }
     }
 
+    /// Returns the number of a given value: a half-angle tangent, or a displacement in metres.
+    pub fn in_metres(linkage: &Linkage, given: &Given) -> Option<Self> {
+        let pair = given.joint().map(|joint| &linkage.joints[joint].pair);
+        Some(match (Self::of(given)?, pair) {
+            (Self::Finite(shift), Some(Pair::Prismatic { length, .. })) => Self::Finite(shift * length),
+            (number, _) => number,
+        })
+    }
+
     /// Returns a polynomial with this number for its first variable, which it does not contain any more.
     pub fn put(&self, polynomial: &Polynomial<Int>) -> Option<Polynomial<Rational>> {
         let rational = polynomial.map(|c| Some(Rational::from(c.to_integer())))?;
@@ -548,7 +561,7 @@ impl InputNumber {
 }
 
 /// Returns whether two polynomials agree up to a factor.
-fn is_multiple(one: &Univariate<Rational>, two: &Univariate<Integer>) -> bool {
+pub(super) fn is_multiple(one: &Univariate<Rational>, two: &Univariate<Integer>) -> bool {
     let (a, b) = (one.coefficients(), two.coefficients());
     let (Some(last), Some(other)) = (a.last(), b.last()) else { return false };
     a.len() == b.len() && a.iter().zip(b).all(|(x, y)| Rational::from(x * other) == Rational::from(last * y))

@@ -12,7 +12,7 @@ mod trace_symbolic;
 
 pub use closure::{GroupPolynomial, InputOutput, LinkageDerivation, Symbol, derive_linkage};
 pub use cosines::in_cosines;
-pub use inputs::relation_by_values;
+pub use inputs::{derive_linkage_with_input, relation_by_values};
 pub use symbolic::{Coordinate, LinkageSymbolic, derive_linkage_with_symbols};
 pub use trace::{Curve, trace, trace_mass};
 pub use trace_symbolic::{CurveSymbolic, trace_with_symbols};

@@ -1,19 +1,22 @@
 //! The relation of input and output of a linkage with coordinates of its points as symbols.
 
-use super::closure::{InputNumber, Relation, derive_linkage};
+use super::closure::{InputNumber, LinkageDerivation, Relation, derive_linkage};
 use super::cosines::integers;
 use super::four_bar::four_bar;
+use super::inputs::relation_with_symbols;
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Domain, Ring};
 use crate::derivation::equation::primitive;
 use crate::derivation::interpolation::{COMPARED, Family, Source, Values, Watch};
 use crate::error::{Error, Result};
-use crate::kinematics::linkage::{Given, Linkage, Pair};
+use crate::kinematics::linkage::{Given, Linkage};
 use rug::{Integer, Rational};
 
 /// Maximum number of symbols: each multiplies the number of derivations by four or more.
 const MOST_SYMBOLS: usize = 6;
+/// Maximum number of symbols of linkages with gears, whose relations are interpolated in the input, too, and each value takes a Gröbner basis.
+const MOST_GEARED: usize = 2;
 
 /// A coordinate of a point in its body.
 #[derive(Clone, Debug, PartialEq)]
@@ -133,11 +136,7 @@ impl LinkageSymbolic {
     /// Returns the polynomial with the given value of its input: the first symbol is variable 0, the output variable 1.
     #[must_use]
     pub fn at_input(&self, linkage: &Linkage, given: &Given) -> Option<Polynomial<Int>> {
-        let number = match (InputNumber::of(given)?, &linkage.joints[self.input].pair) {
-            (InputNumber::Finite(shift), Pair::Prismatic { length, .. }) => InputNumber::Finite(shift * length),
-            (number, _) => number,
-        };
-        let rest = number.put(&self.polynomial)?;
+        let rest = InputNumber::in_metres(linkage, given)?.put(&self.polynomial)?;
         let own = Polynomial::from_terms(rest.terms().map(|(exponents, c)| {
             let power = |k: usize| exponents.get(k).copied().unwrap_or(0);
             (vec![power(2), power(1)], c.clone())
@@ -247,7 +246,7 @@ fn none() -> Error {
 /// `crank.B.x`, else all of the joints concerned that are not zero.
 ///
 /// # Errors
-/// As [`derive_linkage`]; [`Error::Unsupported`] without a given joint, for more than six symbols, if there would be more than 100,000
+/// As [`derive_linkage`]; [`Error::Unsupported`] without a given joint, for more than six symbols (two with gears), if there would be more than 100,000
 /// terms, and where it is ended; [`Error::Invalid`] for an unknown symbol.
 pub fn derive_linkage_with_symbols(
     linkage: &Linkage,
@@ -256,6 +255,9 @@ pub fn derive_linkage_with_symbols(
     watch: &Watch<'_>,
 ) -> Result<LinkageSymbolic> {
     let base = derive_linkage(linkage, given)?;
+    if !base.gears.is_empty() {
+        return geared(linkage, given, &base, wanted, watch);
+    }
     let relation = base.relations.into_iter().next().flatten();
     let (relation, own) = relation.zip(base.input_output).ok_or_else(none)?;
     let (symbols, numbers) = chosen(linkage, Coordinate::all(linkage, &relation.joints)?, wanted, MOST_SYMBOLS)?;
@@ -282,6 +284,35 @@ pub fn derive_linkage_with_symbols(
         numbers,
         polynomial,
         compared,
+        agrees,
+    })
+}
+
+/// Derives the relation of a linkage with gears, interpolated in the input and the symbols.
+fn geared(
+    linkage: &Linkage,
+    given: &[Given],
+    base: &LinkageDerivation,
+    wanted: &[String],
+    watch: &Watch<'_>,
+) -> Result<LinkageSymbolic> {
+    let (one, best) = given.first().zip(base.polynomials.first()).ok_or_else(none)?;
+    let input = one.joint().ok_or_else(none)?;
+    // A pair of gears is no point of its bodies.
+    let joints: Vec<usize> = (0..linkage.joints.len()).filter(|joint| !linkage.joints[*joint].is_gear()).collect();
+    let (symbols, numbers) = chosen(linkage, Coordinate::all(linkage, &joints)?, wanted, MOST_GEARED)?;
+    let (polynomial, agrees) = relation_with_symbols(linkage, given, base, &symbols, watch)?.ok_or_else(none)?;
+    Ok(LinkageSymbolic {
+        input,
+        held: given[1..].iter().filter_map(Given::joint).collect(),
+        is_turn: matches!(one, Given::Turn { .. }),
+        body: best.body,
+        against: best.against,
+        joints,
+        symbols,
+        numbers,
+        polynomial,
+        compared: Some(COMPARED),
         agrees,
     })
 }

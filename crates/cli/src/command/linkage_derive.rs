@@ -8,10 +8,11 @@ use super::output::Output;
 use super::symbols;
 use looproot::internal::catalogue::LinkageFile;
 use looproot::internal::derivation::{
-    derive_linkage, derive_linkage_with_symbols, trace, trace_mass, trace_with_symbols,
+    LinkageDerivation, derive_linkage, derive_linkage_with_input, derive_linkage_with_symbols, trace, trace_mass,
+    trace_with_symbols,
 };
 use looproot::internal::error::Error;
-use looproot::internal::kinematics::linkage::{Accuracy, Gaussian, Given};
+use looproot::internal::kinematics::linkage::{Accuracy, Gaussian, Given, Linkage};
 use looproot::internal::linkage::cognates::{COUPLER, cognates};
 use looproot::internal::report::{linkage_derivation as report, linkage_symbolic as symbolic};
 use looproot::internal::sweep::LinkageCase;
@@ -89,7 +90,9 @@ pub fn run(options: &DeriveOptions, mechanism: &str, file: &LinkageFile) -> Resu
         let is_proved = found.compared.is_none() && file.exact;
         (written, if is_proved { Exit::Complete } else { Exit::NotProved })
     } else {
-        let derivation = derive_linkage(&file.linkage, &case.given).map_err(in_place)?;
+        let Some(derivation) = derived(options, &file.linkage, &case.given).map_err(in_place)? else {
+            return Ok(Exit::Interrupted);
+        };
         let written = if options.json {
             format!("{}\n", report::json(file, index + 1, &derivation))
         } else if options.quiet {
@@ -110,6 +113,14 @@ pub fn run(options: &DeriveOptions, mechanism: &str, file: &LinkageFile) -> Resu
     };
     Output::write(&options.output, mechanism, &written)?;
     Ok(exit)
+}
+
+/// Derives the closure polynomials, and of gears the relation of input and output where it is written; `None` if it was interrupted.
+fn derived(options: &DeriveOptions, linkage: &Linkage, given: &[Given]) -> Result<Option<LinkageDerivation>, Error> {
+    if options.quiet || linkage.joints.iter().all(|joint| !joint.is_gear()) {
+        return derive_linkage(linkage, given).map(Some);
+    }
+    symbols::watched(options, |watch| derive_linkage_with_input(linkage, given, watch))
 }
 
 /// Derives the curve of a point with symbols; `None` if it was interrupted.
