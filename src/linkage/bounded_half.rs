@@ -4,7 +4,7 @@
 use super::isotropic::{Value, middle};
 use super::quadratic::{Decidable, Top};
 use super::state::Half;
-use crate::algebra::bounded::{Bounded, Floating};
+use crate::algebra::bounded::Floating;
 use crate::algebra::disc::Disc;
 use crate::algebra::double_double::DoubleDouble;
 use crate::algebra::ring::Ring;
@@ -15,51 +15,56 @@ use rug::{Float, Rational};
 /// Bits of the discs that hold such numbers: more than sums of two doubles have that were rounded before, so that what is lost here is a
 /// small part of their error.
 const DISC_BITS: u32 = 128;
-/// What is read off numbers whose own rounding is small beside it is lowered by this.
-const LEAST: f64 = 0.99;
+/// Factor that covers the roundings of a bound, which is made of some ten sums, products and roots of numbers that are not negative.
+const UP: f64 = 1.0 + 64.0 * f64::EPSILON;
+/// Factor that lowers a bound from below in the same way.
+const DOWN: f64 = 1.0 - 64.0 * f64::EPSILON;
+/// More than a bound loses by underflow.
+const TINY: f64 = 1e-280;
 
-/// A complex number whose parts are known up to a bound.
+/// All complex numbers within a radius of a computed one.
+///
+/// A bound for both parts together, and not for each, is not turned by a product: it grows with the size of the factors, and not by
+/// sqrt(2) more every time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BoundedHalf<T> {
-    re: Bounded<T>,
-    im: Bounded<T>,
+    re: T,
+    im: T,
+    radius: f64,
+}
+
+impl<T: Floating> BoundedHalf<T> {
+    /// Returns a computed number of which this many units in the last place of `size` are lost beside `radius`.
+    fn new(re: T, im: T, radius: f64, units: f64, size: f64) -> Self {
+        Self { re, im, radius: (radius + units * T::ROUNDOFF * size) * UP + TINY }
+    }
+
+    /// Returns the computed number, rounded.
+    pub fn middle(self) -> Complex<f64> {
+        Complex::new(self.re.in_f64(), self.im.in_f64())
+    }
+
+    /// Returns the size of the computed number, about as exact as an f64.
+    fn size(self) -> f64 {
+        let Complex { re, im } = self.middle();
+        (re * re + im * im).sqrt()
+    }
+
+    /// Returns an upper bound of all sizes.
+    fn at_most(self) -> f64 {
+        (self.size() + self.radius) * UP + TINY
+    }
+
+    /// Returns the computed number, without its error.
+    fn computed(self) -> Self {
+        Self { radius: 0.0, ..self }
+    }
 }
 
 impl<T: Floating + From<f64>> BoundedHalf<T> {
     /// Returns an f64 as it is.
     fn of(z: Complex<f64>) -> Self {
-        Self { re: Bounded::new(T::from(z.re), 0.0), im: Bounded::new(T::from(z.im), 0.0) }
-    }
-
-    /// Returns the computed number, without its error.
-    fn computed(self) -> Self {
-        Self { re: Bounded::new(self.re.value, 0.0), im: Bounded::new(self.im.value, 0.0) }
-    }
-
-    /// Returns the computed number, rounded.
-    pub fn middle(self) -> Complex<f64> {
-        Complex::new(self.re.value.in_f64(), self.im.value.in_f64())
-    }
-
-    /// Returns an upper bound of the absolute value.
-    fn at_most(self) -> f64 {
-        self.re.size() + self.im.size()
-    }
-
-    /// Returns a lower bound of the absolute value of the computed number.
-    fn computed_at_least(self) -> f64 {
-        self.re.value.in_f64().abs().max(self.im.value.in_f64().abs()) * LEAST
-    }
-
-    /// Returns the numbers within this distance of the computed one.
-    fn within(self, error: f64) -> Self {
-        Self { re: Bounded::new(self.re.value, error), im: Bounded::new(self.im.value, error) }
-    }
-
-    /// Returns the number in f64 with the bound of its error.
-    #[must_use]
-    pub fn in_f64(self) -> BoundedHalf<f64> {
-        BoundedHalf { re: self.re.in_f64(), im: self.im.in_f64() }
+        Self { re: T::from(z.re), im: T::from(z.im), radius: 0.0 }
     }
 }
 
@@ -67,16 +72,19 @@ impl<T: Floating> Ring for BoundedHalf<T> {
     const LIGHT: bool = T::LIGHT;
 
     fn zero() -> Self {
-        Self { re: Bounded::zero(), im: Bounded::zero() }
+        Self { re: T::zero(), im: T::zero(), radius: 0.0 }
     }
     fn one() -> Self {
-        Self { re: Bounded::one(), im: Bounded::zero() }
+        Self { re: T::one(), im: T::zero(), radius: 0.0 }
     }
     fn add(&self, other: &Self) -> Self {
-        Self { re: self.re.add(&other.re), im: self.im.add(&other.im) }
+        let (re, im) = (self.re.add(&other.re), self.im.add(&other.im));
+        // One rounding of each part.
+        let size = re.in_f64().abs() + im.in_f64().abs();
+        Self::new(re, im, self.radius + other.radius, 1.0, size)
     }
     fn sub(&self, other: &Self) -> Self {
-        Self { re: self.re.sub(&other.re), im: self.im.sub(&other.im) }
+        self.add(&other.neg())
     }
     fn mul(&self, other: &Self) -> Self {
         // An exact zero stays zero, without rounding.
@@ -85,31 +93,39 @@ impl<T: Floating> Ring for BoundedHalf<T> {
         }
         let re = self.re.mul(&other.re).sub(&self.im.mul(&other.im));
         let im = self.re.mul(&other.im).add(&self.im.mul(&other.re));
-        Self { re, im }
+        let (own, others) = (self.size(), other.size());
+        let moved = own * other.radius + others * self.radius + self.radius * other.radius;
+        // Each part has two products and a sum, whose terms are together no larger than the product of the sizes, and twice that for both.
+        Self::new(re, im, moved, 8.0, own * others)
     }
     fn neg(&self) -> Self {
-        Self { re: self.re.neg(), im: self.im.neg() }
+        Self { re: self.re.neg(), im: self.im.neg(), radius: self.radius }
     }
     fn is_zero(&self) -> bool {
-        self.re.is_zero() && self.im.is_zero()
+        self.re.is_zero() && self.im.is_zero() && self.radius == 0.0
     }
     fn from_rational(q: &Rational) -> Option<Self> {
-        let re = if *q == 0 { Bounded::zero() } else { Bounded::from_rational(q)? };
-        Some(Self { re, im: Bounded::zero() })
+        if *q == 0 {
+            return Some(Self::zero());
+        }
+        let re = T::from_rational(q)?;
+        // The nearest number, or one beside it.
+        Some(Self::new(re, T::zero(), 0.0, 2.0, re.in_f64().abs()))
     }
 }
 
 impl<T: Floating + From<f64>> Half for BoundedHalf<T> {
     fn exactly(z: &Gaussian) -> Self {
-        let part = |q: &Rational| Self::from_rational(q).map_or(Bounded::new(T::zero(), f64::INFINITY), |half| half.re);
-        Self { re: part(&z.re), im: part(&z.im) }
+        let unknown = Self { radius: f64::INFINITY, ..Self::zero() };
+        let part = |q: &Rational| Self::from_rational(q).unwrap_or(unknown);
+        let (re, im) = (part(&z.re), part(&z.im));
+        Self { re: re.re, im: im.re, radius: (re.radius + im.radius) * UP }
     }
 }
 
 impl<T: Floating + From<f64>> Decidable for BoundedHalf<T> {
     fn vanishes(&self) -> Option<bool> {
-        let is_off = |part: Bounded<T>| part.value.in_f64().abs() * LEAST > part.error();
-        if is_off(self.re) || is_off(self.im) {
+        if self.size() * DOWN > self.radius + TINY {
             return Some(false);
         }
         self.is_zero().then_some(true)
@@ -118,11 +134,11 @@ impl<T: Floating + From<f64>> Decidable for BoundedHalf<T> {
     /// With v beside 1/z and e = |1 - z v| < 1/2, |1/z - v| = e/|z| is at most e |v|/(1 - e).
     fn inverse(&self) -> Option<Self> {
         let start = Self::of(self.middle().inv());
-        // One step of Newton's method, as v itself is no better than an f64.
+        // One step of Newton's method, as the first inverse is no better than an f64.
         let step = Self::one().sub(&self.computed().mul(&start));
         let near = start.add(&start.mul(&step)).computed();
         let defect = Self::one().sub(&self.mul(&near)).at_most();
-        (defect < 0.5).then(|| near.within(2.0 * defect * near.at_most()))
+        (defect < 0.5).then(|| Self { radius: 2.0 * defect * near.at_most() * UP, ..near })
     }
 
     /// Of the roots w and -w one has Re(w conj(r)) >= 0, so that |w + r| >= |r| and |w - r| <= |z - r^2|/|r|.
@@ -131,13 +147,13 @@ impl<T: Floating + From<f64>> Decidable for BoundedHalf<T> {
         let half = Self::of(start.middle().inv() / 2.0);
         let step = self.computed().sub(&start.mul(&start));
         let near = start.add(&step.mul(&half)).computed();
-        let (defect, least) = (self.sub(&near.mul(&near)).at_most(), near.computed_at_least());
-        let error = defect / least;
-        (least > 0.0 && error < least).then(|| near.within(error / LEAST))
+        let (defect, least) = (self.sub(&near.mul(&near)).at_most(), near.size() * DOWN);
+        let radius = defect / least * UP;
+        (least > TINY && radius < least).then_some(Self { radius, ..near })
     }
 
     fn conjugate(&self) -> Self {
-        Self { re: self.re, im: self.im.neg() }
+        Self { im: self.im.neg(), ..*self }
     }
 }
 
@@ -161,7 +177,7 @@ impl Followed for BoundedHalf<f64> {
         *self
     }
     fn value(&self) -> Value {
-        disc([self.re.value, self.im.value].map(|part| Float::with_val(DISC_BITS, part)), [self.re, self.im])
+        disc([self.re, self.im].map(|part| Float::with_val(DISC_BITS, part)), self.radius)
     }
 }
 
@@ -169,14 +185,16 @@ impl Followed for BoundedHalf<DoubleDouble> {
     type Finer = Value;
 
     fn rough(&self) -> BoundedHalf<f64> {
-        self.in_f64()
+        let near = self.middle();
+        // Each part is the nearest f64, or one beside it.
+        BoundedHalf::new(near.re, near.im, self.radius, 2.0, near.re.abs() + near.im.abs())
     }
     fn value(&self) -> Value {
         let long = |part: DoubleDouble| {
             let [high, low] = part.parts();
             Float::with_val(DISC_BITS, high) + low
         };
-        disc([self.re.value, self.im.value].map(long), [self.re, self.im])
+        disc([self.re, self.im].map(long), self.radius)
     }
 }
 
@@ -186,18 +204,17 @@ impl Followed for Value {
 
     fn rough(&self) -> BoundedHalf<f64> {
         let near = middle(&self.disc);
-        let off = self.disc.radius().to_f64() / LEAST;
-        // Half a unit in the last place of each part, and of what lies below all of them.
-        let part = |x: f64| Bounded::new(x, off + f64::EPSILON * x.abs() + f64::MIN_POSITIVE);
-        BoundedHalf { re: part(near.re), im: part(near.im) }
+        // Rounding takes half a unit in the last place of each part and of the radius.
+        let off = self.disc.radius().to_f64() * UP + f64::MIN_POSITIVE;
+        BoundedHalf::new(near.re, near.im, off, 2.0, near.re.abs() + near.im.abs())
     }
     fn value(&self) -> Value {
         self.clone()
     }
 }
 
-/// Returns the disc about a number whose parts are known up to a bound.
-fn disc<T: Floating>([re, im]: [Float; 2], parts: [Bounded<T>; 2]) -> Value {
-    let [a, b] = parts.map(|part| part.error());
-    Value::within(Disc::new(re, im, &Float::with_val(64, (a + b) / LEAST)))
+/// Returns the disc about a computed number.
+fn disc([re, im]: [Float; 2], radius: f64) -> Value {
+    // The centre loses less than 2^-127 of its size, the radius of what is not exact is 2^-100 of it at least.
+    Value::within(Disc::new(re, im, &Float::with_val(64, radius * 1.01)))
 }

@@ -7,7 +7,7 @@ use super::ring::Ring;
 use super::surd::{Closed, Phase};
 use super::value::{BITS, Value};
 use crate::error::{Error, Result};
-use rug::{Float, Rational, ops::Pow};
+use rug::{Float, Integer, Rational, ops::Pow};
 use std::sync::Arc;
 
 pub use super::half_tangent::HalfTangent;
@@ -129,6 +129,11 @@ pub struct Angle {
 /// Returns the f64 nearest to a rational (rug's own `to_f64` truncates).
 #[must_use]
 pub fn nearest_f64(q: &Rational) -> f64 {
+    // Numbers that an f64 holds are divided by its own division, which rounds to the nearest.
+    let short = |n: &Integer| n.to_i64().filter(|n| n.unsigned_abs() <= 1 << f64::MANTISSA_DIGITS);
+    if let (Some(numerator), Some(denominator)) = (short(q.numer()), short(q.denom())) {
+        return numerator as f64 / denominator as f64;
+    }
     Float::with_val(53, q).to_f64()
 }
 
