@@ -17,7 +17,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::sync::atomic::{self, AtomicBool};
 
-/// Most dyads that are solved for a number: about a minute.
+/// Most dyads that are solved for a number: some minutes.
 const MOST_STEPS: usize = 1 << 24;
 /// Most branches that wait while the nearest assemblies are looked for: each holds the places of all bodies.
 const MOST_OPEN: usize = 1 << 14;
