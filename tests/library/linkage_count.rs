@@ -19,7 +19,7 @@ type Point = [Rational; 2];
 #[derive(Clone, Copy, PartialEq)]
 enum Planted {
     Anywhere,
-    /// That of the dyad with this number stands between its ends, which are as far apart as they can be.
+    /// The middle joint of the dyad with this number stands between its ends, which are as far apart as they can be.
     Straight(usize),
 }
 
