@@ -7,15 +7,16 @@ use super::sphere::{SphereCase, SphereClaims, SphereFile, turned};
 use crate::algebra::number::{Angle, Number, Quantity, Reading};
 use crate::error::{Error, Result};
 use crate::kinematics::linkage::{Gaussian, Given, Pair};
+use crate::kinematics::motion::Vector;
 use crate::kinematics::sphere::{Direction, SphereGiven};
 use rug::Rational;
 
-/// Splits names and values: `A=60 deg, B=1/2`.
 /// The option that holds the values of inputs.
 const INPUT: &str = "--input";
 /// The option that holds the values to which the nearest assemblies are listed.
 const NEAR: &str = "--near";
 
+/// Splits names and values: `A=60 deg, B=1/2`.
 fn typed<'a>(text: &'a str, option: &str) -> Result<Vec<(&'a str, &'a str)>> {
     let pairs = text.split(',').map(|part| {
         let message = || format!("found {option} \"{}\", expected JOINT=VALUE, such as A=60 deg", part.trim());
@@ -190,22 +191,43 @@ impl SphereFile {
     /// # Errors
     /// For bodies and points that do not exist.
     pub fn point<'a>(&self, asked: &'a str) -> Result<(usize, &'a str, Direction)> {
-        let bodies = &self.linkage.bodies;
-        let found = asked.split_once('.').and_then(|(body, point)| {
-            let number = bodies.iter().position(|own| own.name == body)?;
-            Some((number, point, bodies[number].point(point)?.clone()))
-        });
-        found.ok_or_else(|| {
-            let points = bodies
-                .iter()
-                .flat_map(|body| body.points.iter().map(move |(point, _)| format!("{}.{point}", body.name)));
-            let known: Vec<String> = points.take(12).collect();
-            Error::Invalid(format!("found the point {asked}, expected a point of a body: {}", known.join(", ")))
-        })
+        let bodies = self.linkage.bodies.iter().map(|body| (body.name.as_str(), body.points.as_slice()));
+        point_named(asked, bodies)
     }
 }
 
+/// A named point of a body.
+type NamedPoint = (String, [Rational; 3]);
+
+/// The number of a body, the name of a point of it, and its place there.
+type PointOfBody<'a> = (usize, &'a str, [Rational; 3]);
+
+/// Finds the point `BODY.POINT` among bodies with their points.
+fn point_named<'a, 'b>(
+    asked: &'a str,
+    bodies: impl Iterator<Item = (&'b str, &'b [NamedPoint])> + Clone,
+) -> Result<PointOfBody<'a>> {
+    let found = asked.split_once('.').and_then(|(body, point)| {
+        let (number, (_, points)) = bodies.clone().enumerate().find(|(_, (name, _))| *name == body)?;
+        Some((number, point, points.iter().find(|(name, _)| name == point)?.1.clone()))
+    });
+    found.ok_or_else(|| {
+        let points = bodies.flat_map(|(body, points)| points.iter().map(move |(point, _)| format!("{body}.{point}")));
+        let known: Vec<String> = points.take(12).collect();
+        Error::Invalid(format!("found the point {asked}, expected a point of a body: {}", known.join(", ")))
+    })
+}
+
 impl SpaceFile {
+    /// Returns a point of a body by its name `BODY.POINT`: the number of the body, the name of the point, and its place there.
+    ///
+    /// # Errors
+    /// For bodies and points that do not exist.
+    pub fn point<'a>(&self, asked: &'a str) -> Result<(usize, &'a str, Vector<Rational>)> {
+        let bodies = self.linkage.bodies.iter().map(|body| (body.name.as_str(), body.points.as_slice()));
+        point_named(asked, bodies)
+    }
+
     /// Returns the first case with these values in place of those of the same joints, or beside them.
     ///
     /// # Errors

@@ -495,6 +495,18 @@ impl SpaceFile {
         Ok(case)
     }
 
+    /// Returns the given value of a joint by its number: radians or metres.
+    ///
+    /// # Errors
+    /// For joints without a value.
+    pub fn driven(&self, joint: usize, value: f64) -> Result<SpaceGiven> {
+        let value = match self.linkage.joints[joint].is_distance() {
+            Some(true) => InputValue::Distance(Number::from_f64(value)),
+            _ => InputValue::Angle(Angle::from_radians(value)),
+        };
+        given(&self.linkage, joint, &value, self.cases[0].line).map(|(given, _)| given)
+    }
+
     /// Returns whether the value of a joint is a distance; `None` for unknown joints and those without a value.
     #[must_use]
     pub fn is_distance(&self, name: &str) -> Option<bool> {

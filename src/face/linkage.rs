@@ -4,15 +4,18 @@ use super::arm::angle;
 use crate::algebra::number::Number;
 use crate::catalogue::entry::InputValue;
 use crate::catalogue::{Any, LinkageCase, LinkageFile, Options, SpaceFile, SphereCase, SphereFile, load_any};
-use crate::derivation::{derive_linkage, sphere_trace, trace, transfer};
+use crate::derivation::{derive_in_space, derive_linkage, derive_on_sphere, sphere_trace, trace, transfer};
 use crate::error::{Error, Result};
 use crate::kinematics::joint::Variable;
 use crate::kinematics::linkage::Given;
 use crate::mobility::solve_or_move;
 use crate::report::certificate::certificate_of_linkage;
 use crate::report::linkage_sweep::{Asked, Traced};
-use crate::report::{linkage, linkage_derivation, linkage_mobility, linkage_sweep, space, sphere, sphere_sweep};
-use crate::sweep::{Range, sweep_linkage, sweep_sphere};
+use crate::report::ring_derivation::{self, Named};
+use crate::report::{
+    linkage, linkage_derivation, linkage_mobility, linkage_sweep, space, space_sweep, sphere, sphere_sweep,
+};
+use crate::sweep::{Range, sweep_linkage, sweep_space, sweep_sphere};
 use crate::view::drawable;
 use serde_json::Value;
 use std::sync::atomic::AtomicBool;
@@ -115,11 +118,10 @@ impl Linkage {
                 let answer = crate::linkage::sphere::solve(&file.linkage, &case.given, file.exact && case.exact)?;
                 sphere::json(file, &[sphere::result(file, &case, 1, &answer, complex)])
             }
-            // They have no scene yet.
             Kind::Space(file) => {
                 let case = file.case_at(&self.values(given)?)?;
                 let answer = crate::linkage::space::solve(&file.linkage, &case.given, file.exact && case.exact)?;
-                return Ok(space::json(file, &[space::result(file, &case, 1, &answer, complex)]));
+                space::json(file, &[space::result(file, &case, 1, &answer, complex)])
             }
         };
         drawable(&mut document)?;
@@ -177,7 +179,13 @@ impl Linkage {
                 let found = sweep_sphere(&file.linkage, (&case.given, file.exact && case.exact), number, range)?;
                 sphere_sweep::json(file, traced.as_ref(), &found)
             }
-            Kind::Space(_) => return Err(in_space("sweeps")),
+            Kind::Space(file) => {
+                let traced = traced.map(|name| file.point(name)).transpose()?;
+                let traced = traced
+                    .map(|(body, name, place)| (body, format!("{}.{name}", file.linkage.bodies[body].name), place));
+                let found = sweep_space(file, number, range, || ())?;
+                space_sweep::json(file, traced.as_ref(), &found)
+            }
         };
         drawable(&mut document)?;
         Ok(document)
@@ -197,7 +205,7 @@ impl Linkage {
     }
 
     /// Returns the document of `looproot derive --json`: the closure polynomials of the groups, or on the sphere the transfer
-    /// function.
+    /// function where there is one.
     ///
     /// # Errors
     /// As [`Linkage::solve`].
@@ -212,9 +220,19 @@ impl Linkage {
                 let case = self.sphere_case(file, given)?;
                 let input = case.given.iter().find_map(|given| given.joint);
                 let input = input.ok_or_else(|| Error::Invalid("found no joint given, expected one".to_owned()))?;
-                Ok(sphere::transfer_json(file, 1, &transfer(&file.linkage, input)?))
+                if let Ok(found) = transfer(&file.linkage, input) {
+                    return Ok(sphere::transfer_json(file, 1, &found));
+                }
+                let derivation = derive_on_sphere(&file.linkage, &case.given)?;
+                let file = SphereFile { cases: vec![case], ..(**file).clone() };
+                Ok(ring_derivation::json(&Named::on_sphere(&file, 1), &derivation))
             }
-            Kind::Space(_) => Err(in_space("closure polynomials")),
+            Kind::Space(file) => {
+                let case = file.case_at(&self.values(given)?)?;
+                let derivation = derive_in_space(&file.linkage, &case.given)?;
+                let file = SpaceFile { cases: vec![case], ..(**file).clone() };
+                Ok(ring_derivation::json(&Named::in_space(&file, 1), &derivation))
+            }
         }
     }
 

@@ -30,7 +30,9 @@ pub use instant::{Moving, MovingChain, relative};
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::entry::{Case, Design, Entry};
 use crate::error::Result;
-use crate::kinematics::platform_limits::Part;
+use crate::algebra::number::Number;
+use crate::kinematics::platform::Platform;
+use crate::kinematics::platform_limits::{Part, PlatformLimits};
 use crate::kinematics::task::Demand;
 pub use crate::kinematics::tolerance::{PoseError, Tolerance};
 use crate::kinematics::velocity::Velocity;
@@ -187,6 +189,15 @@ impl Mechanism {
         };
         let turns = Turns::of(entry.chain(), &entry.limits);
         Ok(Self { solver, turns, tolerance: None })
+    }
+
+    /// Prepares a platform without limits.
+    ///
+    /// # Errors
+    /// For a coordinate without a value.
+    pub(crate) fn of_platform(geometry: &Platform<Number>) -> Result<Self> {
+        let solver = Solver::Platform(Box::new(PreparedPlatform::prepare(geometry, &PlatformLimits::default())?));
+        Ok(Self { solver, turns: Turns::of(None, &[]), tolerance: None })
     }
 
     /// Returns the mechanism with another tolerance: configurations of an arm within it of a pose are listed as near ones.

@@ -74,7 +74,8 @@ pub fn text<M>(input: Input<'_>, sweep: &AssemblySweep<M>, more: Option<(&str, &
         End::Range => "end of range".to_owned(),
         End::Closed(turns) => format!("closed after {}", counted(*turns, "turn")),
         End::Unresolved([one, two]) => format!("unresolved {} to {}", input.shown(*one), input.shown(*two)),
-        End::Infinite(_) | End::Isolated => "isolated".to_owned(),
+        End::Infinite(near) => format!("to infinity near {}", input.shown(*near)),
+        End::Isolated => "isolated".to_owned(),
     };
     if !sweep.branches.is_empty() {
         let (from, to) = (format!("from [{unit}]"), format!("to [{unit}]"));
@@ -147,7 +148,8 @@ fn end_json(end: &End) -> Value {
         End::Range => json!({ "kind": "range" }),
         End::Closed(turns) => json!({ "kind": "closed", "turns": turns }),
         End::Unresolved(between) => json!({ "kind": "unresolved", "between": between.map(number) }),
-        End::Infinite(_) | End::Isolated => json!({ "kind": "isolated" }),
+        End::Infinite(near) => json!({ "kind": "infinity", "near": number(*near) }),
+        End::Isolated => json!({ "kind": "isolated" }),
     }
 }
 

@@ -1,4 +1,4 @@
-//! The axodes of a body in a sweep of a loop or of a linkage on the sphere, and its centrodes in the plane: the instantaneous axis or
+//! The axodes of a body in a sweep of a loop or of a linkage on the sphere or in space, and its centrodes in the plane: the instantaneous axis or
 //! pole of every row, as the ground and as the body sees it.
 
 use super::json::number;
@@ -6,19 +6,21 @@ use super::space_instant::{chain_name, rounded};
 use crate::algebra::number::{Angle, HalfTangent, Number};
 use crate::algebra::ring::Ring;
 use crate::catalogue::entry::{Case, Entry, Input, InputValue};
-use crate::catalogue::{LinkageFile, SphereFile};
+use crate::catalogue::{LinkageFile, SpaceFile, SphereFile};
 use crate::displacement::answer::list;
 use crate::error::Result;
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::linkage::{Gaussian, Given};
 use crate::kinematics::motion::{Motion, Vector, dot};
+use crate::kinematics::space::SpaceGiven;
 use crate::kinematics::sphere::SphereGiven;
 use crate::linkage::answer::LinkageMode;
 use crate::linkage::instant::pole;
 use crate::linkage::rates::{Moving as Plane, freedoms, moving, resting};
+use crate::linkage::space::{SpaceMode, rates as rates_in_space};
 use crate::linkage::sphere::{SphereMode, rates};
 use crate::mechanism::{InputCurve, Moving, MovingChain, relative};
-use crate::sweep::{LinkageSweep, SphereSweep};
+use crate::sweep::{AssemblySweep, LinkageSweep, SpaceSweep, SphereSweep};
 use looproot_calculus::line::pluecker::Line;
 use rug::Rational;
 use serde_json::{Value, json};
@@ -35,7 +37,7 @@ pub fn of_loop(document: &mut Value, entry: &Entry, input: (usize, Variable), bo
         let found = (q.len() == curve.variables().len()).then(|| {
             let rates = curve.derivatives_at(&curve.point(&q))?;
             let all = MovingChain::of(chain, &q, &rates.velocity, &rates.acceleration)?;
-            axis(all.bodies().get(body)?, all.bodies())
+            axis([body, 0], all.bodies())
         });
         row["axodes"] = json!({ chain_name(body): found.flatten() });
     }
@@ -79,13 +81,35 @@ pub fn of_sphere(document: &mut Value, file: &SphereFile, sweep: &SphereSweep, b
     let given = given_of_sphere(file, sweep.joint);
     let found = |mode: &SphereMode| {
         let all = rates(linkage, &given, mode)?.bodies;
-        axis(all.get(body)?, &all)
+        axis([body, linkage.ground], &all)
     };
+    of_assemblies(document, &linkage.bodies[body].name, sweep, found);
+}
+
+/// Adds `axodes` to all rows of a sweep of a linkage in space.
+pub fn of_space(document: &mut Value, file: &SpaceFile, sweep: &SpaceSweep, body: usize) {
+    let linkage = &file.linkage;
+    let given = given_of_space(file, sweep.joint);
+    let found = |mode: &SpaceMode| {
+        let all = rates_in_space(linkage, &given, mode)?.bodies;
+        axis([body, linkage.ground], &all)
+    };
+    of_assemblies(document, &linkage.bodies[body].name, sweep, found);
+}
+
+/// Returns the given values of a linkage in space with this joint, at any value, in front.
+pub(super) fn given_of_space(file: &SpaceFile, joint: usize) -> Vec<SpaceGiven> {
+    let others = file.cases[0].given.iter().filter(|one| one.joint != Some(joint)).cloned();
+    file.driven(joint, 1.0).into_iter().chain(others).collect()
+}
+
+/// Adds `axodes` to all rows and limit positions of a sweep.
+fn of_assemblies<M>(document: &mut Value, name: &str, sweep: &AssemblySweep<M>, found: impl Fn(&M) -> Option<Value>) {
     let modes = sweep.branches.iter().flat_map(|branch| &branch.rows);
     let modes = modes.map(|row| &sweep.samples[row.step].modes[row.mode]);
-    let modes: Vec<&SphereMode> = modes.chain(sweep.limits.iter().map(|limit| &limit.mode)).collect();
+    let modes: Vec<&M> = modes.chain(sweep.limits.iter().map(|limit| &limit.mode)).collect();
     for (row, mode) in rows(document).into_iter().zip(modes) {
-        row["axodes"] = json!({ linkage.bodies[body].name.clone(): found(mode) });
+        row["axodes"] = json!({ name: found(mode) });
     }
 }
 
@@ -128,9 +152,11 @@ pub(super) fn rows(document: &mut Value) -> Vec<&mut Value> {
     rows
 }
 
-/// The axis of the velocity screw of a body, in axes of the ground and of the body; `None` where the body does not turn.
-fn axis(body: &Moving, all: &[Moving]) -> Option<Value> {
-    let state = rounded(&relative(body, all.first()?), all);
+/// The axis of the velocity screw of a body against another one at rest, in axes of this and of the body; `None` where the body does not
+/// turn.
+fn axis([body, ground]: [usize; 2], all: &[Moving]) -> Option<Value> {
+    let body = all.get(body)?;
+    let state = rounded(&relative(body, all.get(ground)?), all);
     let screw = state.screw()?;
     let rate = dot(&state.omega, &state.omega).sqrt();
     let point = screw.axis.point()?;

@@ -39,6 +39,7 @@ pub mod scene;
 pub mod score;
 pub mod space;
 pub mod space_instant;
+pub mod space_sweep;
 pub mod sphere;
 pub mod sphere_sweep;
 pub mod surface;

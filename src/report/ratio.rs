@@ -1,20 +1,21 @@
 //! The velocity ratio of a joint to the input along the branches of a sweep.
 
-use super::axodes::{given_of_plane, given_of_sphere, input_of_loop, rows};
+use super::axodes::{given_of_plane, given_of_space, given_of_sphere, input_of_loop, rows};
 use super::json::number;
 use super::number::short;
 use super::table::Columns;
 use crate::algebra::ring::Ring;
 use crate::catalogue::entry::Entry;
-use crate::catalogue::{LinkageFile, SphereFile};
+use crate::catalogue::{LinkageFile, SpaceFile, SphereFile};
 use crate::error::Result;
 use crate::kinematics::closed_loop::Variable;
 use crate::linkage::answer::LinkageMode;
 use crate::linkage::instant::derivatives;
 use crate::linkage::rates::{Moving, freedoms, joint_value, moving, resting};
-use crate::linkage::sphere::rates;
+use crate::linkage::space::{SpaceMode, rates as rates_in_space};
+use crate::linkage::sphere::{SphereMode, rates};
 use crate::mechanism::InputCurve;
-use crate::sweep::{LinkageSweep, SphereSweep, Sweep};
+use crate::sweep::{AssemblyBranch, AssemblyRow, AssemblySweep, LinkageSweep, SpaceSweep, SphereSweep, Sweep};
 use serde_json::{Value, json};
 
 /// Ratios that differ by less than this share are one.
@@ -55,31 +56,34 @@ impl Ratio {
             let bodies = moving(&file.linkage, &given, &resting(mode), &runs)?;
             Some(derivatives(&joint_value(&file.linkage, &bodies, joint)?))
         };
-        let branch = |branch: &crate::sweep::AssemblyBranch| {
-            let row = |row: &crate::sweep::AssemblyRow| {
-                let sample = &sweep.samples[row.step];
-                Row { input: sample.input, ratio: ratio(&sample.modes[row.mode]) }
-            };
-            branch.rows.iter().map(row).collect()
-        };
-        let name = file.linkage.joints[joint].name.clone();
-        let step = (sweep.range.to - sweep.range.from) / sweep.range.steps as f64;
-        Self { name, branches: sweep.branches.iter().map(branch).collect(), step }
+        Self::of_assemblies(file.linkage.joints[joint].name.clone(), sweep, ratio)
     }
 
     /// Returns the ratios of a joint of a linkage on the sphere.
     #[must_use]
     pub fn of_sphere(file: &SphereFile, sweep: &SphereSweep, joint: usize) -> Self {
         let given = given_of_sphere(file, sweep.joint);
-        let branch = |branch: &crate::sweep::AssemblyBranch| {
-            let row = |row: &crate::sweep::AssemblyRow| {
+        let ratio = |mode: &SphereMode| Some(rates(&file.linkage, &given, mode)?.joints[joint]);
+        Self::of_assemblies(file.linkage.joints[joint].name.clone(), sweep, ratio)
+    }
+
+    /// Returns the ratios of a joint of a linkage in space that has a value.
+    #[must_use]
+    pub fn of_space(file: &SpaceFile, sweep: &SpaceSweep, joint: usize) -> Self {
+        let given = given_of_space(file, sweep.joint);
+        let ratio = |mode: &SpaceMode| *rates_in_space(&file.linkage, &given, mode)?.joints.get(joint)?;
+        Self::of_assemblies(file.linkage.joints[joint].name.clone(), sweep, ratio)
+    }
+
+    /// Returns the ratios at all assemblies of the branches of a sweep.
+    fn of_assemblies<M>(name: String, sweep: &AssemblySweep<M>, ratio: impl Fn(&M) -> Option<[f64; 2]>) -> Self {
+        let branch = |branch: &AssemblyBranch| {
+            let row = |row: &AssemblyRow| {
                 let sample = &sweep.samples[row.step];
-                let found = rates(&file.linkage, &given, &sample.modes[row.mode]);
-                Row { input: sample.input, ratio: found.map(|found| found.joints[joint]) }
+                Row { input: sample.input, ratio: ratio(&sample.modes[row.mode]) }
             };
             branch.rows.iter().map(row).collect()
         };
-        let name = file.linkage.joints[joint].name.clone();
         let step = (sweep.range.to - sweep.range.from) / sweep.range.steps as f64;
         Self { name, branches: sweep.branches.iter().map(branch).collect(), step }
     }

@@ -85,8 +85,15 @@ pub fn configuration(object: &Value) -> Option<Vec<f64>> {
     list("q").or_else(|| Some([list("quaternion")?, list("position")?].concat()))
 }
 
+/// The quaternions and positions of all bodies of a configuration, one after the other; `None` where one is complex.
+fn places(object: &Value) -> Option<Vec<f64>> {
+    let bodies: Option<Vec<Vec<f64>>> = object["bodies"].as_object()?.values().map(configuration).collect();
+    Some(bodies?.concat())
+}
+
 fn pose(object: &mut Value, stage: &Stage) {
-    let poses = configuration(object).and_then(|q| stage.poses(&q));
+    let q = if stage.takes_places() { places(object) } else { configuration(object) };
+    let poses = q.and_then(|q| stage.poses(&q));
     if let (Some(poses), Some(object)) = (poses, object.as_object_mut()) {
         object.insert("poses".into(), poses.iter().map(|pose| numbers(pose)).collect());
     }

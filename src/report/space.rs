@@ -8,7 +8,7 @@ use super::number::{counted, duration, short};
 use super::table::{Columns, paragraph};
 use crate::algebra::drawn;
 use crate::catalogue::{SpaceCase, SpaceFile};
-use crate::kinematics::space::{Known, SpaceGiven};
+use crate::kinematics::space::{Known, SpaceGiven, SpaceJoint, SpaceLinkage, SpacePair};
 use crate::linkage::space::{Coordinate, SpaceAnswer, SpaceMode};
 use looproot_calculus::rotation::matrix::from_matrix;
 use looproot_calculus::rotation::vectors::unit;
@@ -70,7 +70,7 @@ pub(super) fn joint_variables(file: &SpaceFile) -> Value {
 }
 
 /// The keys that every document of a linkage has.
-fn shared(file: &SpaceFile) -> Value {
+pub(super) fn shared(file: &SpaceFile) -> Value {
     json!({
         "title": file.heading.title,
         "kind": "linkage",
@@ -93,6 +93,17 @@ pub fn completed(file: &SpaceFile, case: usize, own: Value) -> Value {
     document
 }
 
+/// Whether the value of a joint says where its second body is on its first one.
+fn is_placing(joint: &SpaceJoint) -> bool {
+    matches!(joint.pair, SpacePair::Revolute(_) | SpacePair::Prismatic(_))
+}
+
+/// The bodies on which no R or P joint stands second: other joints leave their places unsaid.
+pub(super) fn moved(linkage: &SpaceLinkage) -> Vec<usize> {
+    let placed: Vec<usize> = linkage.joints.iter().filter(|joint| is_placing(joint)).map(|joint| joint.of[1]).collect();
+    (0..linkage.bodies.len()).filter(|body| *body != linkage.ground && !placed.contains(body)).collect()
+}
+
 /// One document for all cases.
 #[must_use]
 pub fn json(file: &SpaceFile, results: &[Value]) -> Value {
@@ -109,7 +120,7 @@ fn value(z: &Coordinate, real: bool) -> Value {
 }
 
 /// Joints and bodies of an assembly.
-fn places(file: &SpaceFile, mode: &SpaceMode) -> Map<String, Value> {
+pub(super) fn places(file: &SpaceFile, mode: &SpaceMode) -> Map<String, Value> {
     let linkage = &file.linkage;
     let joints = linkage.joints.iter().zip(&mode.joints);
     let joints: Map<String, Value> =
@@ -133,7 +144,7 @@ fn mode(file: &SpaceFile, id: usize, mode: &SpaceMode) -> Value {
     object.extend(places(file, mode));
     object.insert("multiplicity".into(), json!(mode.multiplicity));
     object.insert("residual".into(), number(mode.residual));
-    object.insert("certified".into(), json!(true));
+    object.insert("certified".into(), json!(mode.certified));
     object.insert("radius".into(), number(mode.radius));
     Value::Object(object)
 }
@@ -182,10 +193,7 @@ pub fn text(file: &SpaceFile, case: &SpaceCase, index: usize, answer: &SpaceAnsw
         paragraph(&mut text, &format!("groups: {}", groups.join(" x ")));
     }
     let joints: Vec<usize> = (0..linkage.joints.len()).filter(|k| linkage.joints[*k].is_distance().is_some()).collect();
-    // Joints without a value leave the place of bodies unsaid: those that no joint with a value reaches are listed.
-    let bodies: Vec<usize> = (0..linkage.bodies.len())
-        .filter(|body| *body != linkage.ground && !joints.iter().any(|k| linkage.joints[*k].of[1] == *body))
-        .collect();
+    let bodies = moved(linkage);
     let mut header = vec!["mode".to_owned()];
     header.extend(joints.iter().map(|k| {
         let joint = &linkage.joints[*k];
@@ -194,6 +202,12 @@ pub fn text(file: &SpaceFile, case: &SpaceCase, index: usize, answer: &SpaceAnsw
     for body in &bodies {
         let name = &linkage.bodies[*body].name;
         header.extend(["x", "y", "z"].map(|axis| format!("{name} {axis} [m]")));
+    }
+    // Without any R or P joint the values of joints and the places may be the same in all modes.
+    let turned = if linkage.joints.iter().any(is_placing) { &[] } else { bodies.as_slice() };
+    for body in turned {
+        let name = &linkage.bodies[*body].name;
+        header.extend(["qw", "qx", "qy", "qz"].map(|part| format!("{name} {part}")));
     }
     let multiple = answer.modes.iter().any(|mode| mode.multiplicity > 1 && (complex || mode.real));
     if multiple {
@@ -215,6 +229,9 @@ pub fn text(file: &SpaceFile, case: &SpaceCase, index: usize, answer: &SpaceAnsw
             row.push(mode.joints[*joint].map_or(String::new(), |z| cell(&z, scale, mode.real)));
         }
         row.extend(bodies.iter().flat_map(|body| mode.position(*body)).map(|z| cell(z, 1.0, mode.real)));
+        // The quaternion of a complex rotation may have norm 0, and is none then.
+        let quaternion = |body: &usize| mode.quaternion(*body).map(|q| q.map(|z| cell(&z, 1.0, mode.real)));
+        row.extend(turned.iter().flat_map(|body| quaternion(body).unwrap_or_default()));
         // A sample of a family has none.
         let times = if is_sample { String::new() } else { mode.multiplicity.to_string() };
         row.extend(multiple.then_some(times));

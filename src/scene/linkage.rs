@@ -80,7 +80,12 @@ impl TreePoser {
             seen[to] = true;
             steps.push((to, from, next, to == a));
         }
-        Some(Self { order: order(figure), values: figure.joints.len(), steps, joints: figure.joints.clone() })
+        Some(Self {
+            order: order(figure.bodies.len(), figure.ground),
+            values: figure.joints.len(),
+            steps,
+            joints: figure.joints.clone(),
+        })
     }
 
     pub(super) fn poses(&self, q: &[f64]) -> Option<Vec<Pose>> {
@@ -101,14 +106,14 @@ impl TreePoser {
     }
 }
 
-/// The ground first, the others as in the file.
-fn order(figure: &Figure) -> Vec<usize> {
-    let others = (0..figure.bodies.len()).filter(|body| *body != figure.ground);
-    [figure.ground].into_iter().chain(others).collect()
+/// The numbers of the bodies of a figure, the ground first, the others as in the file.
+pub(super) fn order(bodies: usize, ground: usize) -> Vec<usize> {
+    let others = (0..bodies).filter(|body| *body != ground);
+    [ground].into_iter().chain(others).collect()
 }
 
 /// The points of a body without those that coincide.
-fn different(points: &[Point], size: f64) -> Vec<Point> {
+pub(super) fn different(points: &[Point], size: f64) -> Vec<Point> {
     let mut kept: Vec<Point> = Vec::new();
     for point in points {
         if kept.iter().all(|own| distance(own, point) > SAME * size) {

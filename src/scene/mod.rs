@@ -10,6 +10,7 @@ mod lines;
 pub mod linkage;
 mod platform;
 mod pose;
+pub mod space;
 
 pub use hull::hull;
 pub use pose::{Pose, apply, pose_of};
@@ -149,6 +150,8 @@ enum Poser {
     Points(usize),
     /// Bodies joined by pins and slides.
     Tree(linkage::TreePoser),
+    /// Bodies whose places are known.
+    Placed(space::PlacePoser),
 }
 
 impl Stage {
@@ -182,8 +185,22 @@ impl Stage {
         Some(Self { scene, poser })
     }
 
+    /// The stage of a linkage in space; `None` where a joint has no bodies.
+    #[must_use]
+    pub fn of_space(figure: &space::SpaceFigure) -> Option<Self> {
+        let (scene, poser) = space::scene(figure)?;
+        Some(Self { scene, poser })
+    }
+
+    /// Whether the numbers of a configuration are the places of all bodies.
+    #[must_use]
+    pub fn takes_places(&self) -> bool {
+        matches!(self.poser, Poser::Placed(_))
+    }
+
     /// Returns the poses of the bodies: of a chain or a linkage at these joint variables, of a platform at the quaternion `w, x, y, z` and the
-    /// position of its plate, of a framework at the concatenated coordinates of its vertices. `None` for a list of another
+    /// position of its plate, of a framework at the concatenated coordinates of its vertices, of a linkage in space at the quaternions and
+    /// positions of its bodies in the order of the file. `None` for a list of another
     /// length, and for numbers that are not finite.
     #[must_use]
     pub fn poses(&self, q: &[f64]) -> Option<Vec<Pose>> {
@@ -193,6 +210,7 @@ impl Stage {
         match &self.poser {
             Poser::Chain(poser) => poser.poses(q),
             Poser::Tree(poser) => poser.poses(q),
+            Poser::Placed(poser) => poser.poses(q),
             Poser::Platform => Some(vec![pose::IDENTITY, q.try_into().ok()?]),
             Poser::Points(count) => {
                 let point = |p: &[f64]| [1.0, 0.0, 0.0, 0.0, p[0], p[1], p[2]];

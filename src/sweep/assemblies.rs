@@ -19,6 +19,8 @@ const FURTHER: f64 = 1e-3;
 const NEARER: f64 = 0.35;
 /// Largest distance of two such assemblies: radians, or parts of the size of the linkage.
 const NEAR: f64 = 0.5;
+/// A point at this many times the size of the mechanism is on its way to infinity.
+const FAR: f64 = 1e6;
 /// Places at which a step is cut; the later ones serve where an assembly is double at the earlier ones.
 const CUTS: [f64; 3] = [0.5, 0.463_017, 0.551_923];
 
@@ -115,6 +117,20 @@ impl<M> AssemblySweep<M> {
     }
 }
 
+/// Returns whether a point is on its way to infinity.
+pub(super) fn is_far<const N: usize>(place: [f64; N], size: f64) -> bool {
+    place.iter().map(|x| x * x).sum::<f64>().sqrt() > FAR * size
+}
+
+/// Returns the distance of two places of a point in parts of the size of the mechanism, or of the distance of a point on its way to
+/// infinity: all steps there would else be too large, however short they are. Very far away its direction counts.
+pub(super) fn step<const N: usize>(here: [f64; N], there: [f64; N], size: f64) -> f64 {
+    let norm = |p: [f64; N]| p.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let [one, two] = [here, there].map(norm);
+    let scale = if one.min(two) > FAR * size { [one, two] } else { [size.max(one.min(two)); 2] };
+    norm(std::array::from_fn(|k| here[k] / scale[0] - there[k] / scale[1]))
+}
+
 /// Returns whether a list of assemblies is complete.
 pub(super) fn is_listed(status: Status) -> bool {
     matches!(status, Status::Complete | Status::Unreachable)
@@ -135,6 +151,11 @@ pub(super) trait Running: Sync {
 
     /// Returns the assembly between two that are nearly one.
     fn middle(&self, one: &Self::Mode, two: &Self::Mode) -> Self::Mode;
+
+    /// Returns whether a part of an assembly is on its way to infinity.
+    fn is_far(&self, _mode: &Self::Mode) -> bool {
+        false
+    }
 
     /// Returns how the assemblies of the samples, with more samples between them, are proved to pass into one another.
     fn proved(
@@ -411,6 +432,9 @@ impl<R: Running> Web<'_, R> {
                     }
                     let beside = if forwards { place.0 + 1 } else { place.0.wrapping_sub(1) };
                     let other = self.nodes.get(beside).map_or(input, |(sample, _)| sample.input);
+                    if self.run.is_far(&self.nodes[place.0].0.modes[place.1]) {
+                        return (End::Infinite(input), input);
+                    }
                     (End::Unresolved([input, other]), input)
                 };
                 let turns = path.iter().filter(|place| place.0 == 0).count();

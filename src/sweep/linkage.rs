@@ -1,7 +1,7 @@
 //! All assemblies of a linkage while one of its joints runs through a range.
 
 use super::Range;
-use super::assemblies::{AssemblySample, AssemblySweep, Proved, Running, follow, is_listed};
+use super::assemblies::{AssemblySample, AssemblySweep, Proved, Running, follow, is_far, is_listed, step};
 use super::dyads::Proof;
 use super::linkage_relation::BodyRelations;
 use super::linking::{Linking, links};
@@ -16,9 +16,6 @@ use crate::verdict::Code;
 use num_complex::Complex;
 use rug::Rational;
 use std::f64::consts::TAU;
-
-/// A body at this many times the size of the linkage is on its way to infinity.
-const FAR: f64 = 1e6;
 
 /// The result of a sweep of a linkage.
 pub type LinkageSweep = AssemblySweep<LinkageMode>;
@@ -68,17 +65,17 @@ impl Running for Run<'_> {
         Ok(AssemblySample { input, status, reason: answer.verdict.reason, modes, is_regular })
     }
 
-    /// The distance of two assemblies: the largest turn or step of a body. Steps are parts of the size, or of the distance of a body
-    /// on its way to infinity: all steps there would else be too large, however short they are. Very far away its direction counts.
+    /// The distance of two assemblies: the largest turn or step of a body.
     fn apart(&self, one: &LinkageMode, two: &LinkageMode) -> f64 {
         one.bodies.iter().zip(&two.bodies).fold(0.0, |worst, ((angle, place), (other, at))| {
             let turn = wrapped(angle.re - other.re).abs();
             let [here, there] = [place, at].map(|p| [p[0].re, p[1].re]);
-            let [one, two] = [here, there].map(|[x, y]| x.hypot(y));
-            let scale = if one.min(two) > FAR * self.size { [one, two] } else { [self.size.max(one.min(two)); 2] };
-            let step = (here[0] / scale[0] - there[0] / scale[1]).hypot(here[1] / scale[0] - there[1] / scale[1]);
-            worst.max(turn).max(step)
+            worst.max(turn).max(step(here, there, self.size))
         })
+    }
+
+    fn is_far(&self, mode: &LinkageMode) -> bool {
+        mode.bodies.iter().any(|(_, place)| is_far([place[0].re, place[1].re], self.size))
     }
 
     /// The assembly between two that are nearly one.

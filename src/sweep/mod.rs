@@ -19,6 +19,7 @@ mod linking;
 mod nodes;
 mod platform;
 mod sample;
+mod space;
 mod sphere;
 mod track;
 mod verdict;
@@ -33,6 +34,7 @@ pub use derivation::derive_any;
 pub use linkage::{LinkageSweep, count_limits, sweep_linkage};
 pub use platform::{PlatformSweep, sweep_platform};
 pub use sample::{Sample, case};
+pub use space::{SpaceSweep, place as space_place, sweep_space};
 pub use sphere::{SphereSweep, place as sphere_place, sweep_sphere};
 pub use verdict::SweepVerdict;
 

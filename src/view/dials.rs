@@ -28,6 +28,10 @@ pub(super) fn dials(document: &Value, tracks: &[(usize, &Track<'_>)]) -> String 
     if document["kind"] == "platform" {
         return plate(&modes);
     }
+    // A linkage in space may have no joint with a value.
+    if list(document, "joint_variables").is_empty() {
+        return String::new();
+    }
     let mut text = String::from("<div class=\"dials\">\n");
     for (place, variable) in list(document, "joint_variables").iter().enumerate() {
         let name = variable["label"].as_str().unwrap_or_default();

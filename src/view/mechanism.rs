@@ -5,6 +5,7 @@ use crate::catalogue::entry::Design;
 use crate::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement, ScrewJoint};
 use crate::kinematics::platform::Platform;
 use crate::scene::linkage::{Figure, Hinge, Outline, planar_frame, spherical_frame};
+use crate::scene::space::{Bond, SpaceFigure, SpaceHinge};
 use crate::scene::{Point, Stage};
 use serde_json::Value;
 
@@ -15,6 +16,7 @@ pub(super) fn stage(document: &Value) -> Option<Stage> {
     let links = links.map(|(base, tip)| [base.to_owned(), tip.to_owned()]);
     match mechanism["kind"].as_str()? {
         "framework" => framework(mechanism),
+        "linkage" if mechanism["space"] == "space" => Stage::of_space(&in_space(document)?),
         "linkage" => Stage::of_linkage(&linkage(document)?),
         "platform" => Stage::of_design(&Design::Platform(Box::new(platform(mechanism)?)), None),
         "arm" => Stage::of_design(&Design::Arm(chain(mechanism)?), links.as_ref()),
@@ -86,18 +88,58 @@ fn linkage(document: &Value) -> Option<Figure> {
         let frames = [frame(0)?, frame(1)?];
         joints.push(Hinge { name: joint["name"].as_str()?.to_owned(), number, kind, of, frames });
     }
-    let trace = |name: &Value| {
-        let name = name.as_str()?;
+    let trace = |name: &String| {
         let (of, at) = name.split_once('.')?;
-        Some((name.to_owned(), body(of)?, point(&fields[of][at])?))
+        Some((name.clone(), body(of)?, point(&fields[of][at])?))
     };
-    // The point that a sweep followed, or those of the file.
-    let asked = document["branches"][0]["rows"][0]["points"].as_object();
-    let asked: Vec<Value> =
-        asked.map_or(Vec::new(), |points| points.keys().map(|name| Value::from(name.as_str())).collect());
-    let named = mechanism["traces"].as_array().map_or(&[][..], Vec::as_slice);
-    let traces = if asked.is_empty() { named } else { &asked }.iter().filter_map(trace).collect();
+    let traces = traced(document).iter().filter_map(trace).collect();
     Some(Figure { bodies, joints, ground: body(mechanism["ground"].as_str()?)?, on_sphere, traces })
+}
+
+/// The names of the points whose paths are drawn: of that which a sweep followed, or of those of the file.
+fn traced(document: &Value) -> Vec<String> {
+    if let Some(asked) = document["branches"][0]["rows"][0]["points"].as_object() {
+        return asked.keys().cloned().collect();
+    }
+    let named = document["mechanism"]["traces"].as_array().map_or(&[][..], Vec::as_slice);
+    named.iter().filter_map(|name| name.as_str().map(str::to_owned)).collect()
+}
+
+/// The bodies and joints of a linkage in space.
+fn in_space(document: &Value) -> Option<SpaceFigure> {
+    let mechanism = &document["mechanism"];
+    let fields = mechanism["bodies"].as_object()?;
+    let body = |name: &Value| fields.keys().position(|own| Some(own.as_str()) == name.as_str());
+    let outline = |(name, points): (&String, &Value)| {
+        let points = points.as_object()?.values().map(|point| three(point, real)).collect::<Option<_>>()?;
+        Some(Outline { name: name.clone(), points })
+    };
+    let mut bodies: Vec<Outline> = fields.iter().map(outline).collect::<Option<_>>()?;
+    let mut joints = Vec::new();
+    for (number, joint) in (1..).zip(mechanism["joints"].as_array()?) {
+        let both = |key: &str| Some([three(&joint[key][0], real)?, three(&joint[key][1], real)?]);
+        let of = [body(&joint["of"][0])?, body(&joint["of"][1])?];
+        let at = both("at")?;
+        let bond = match joint["type"].as_str()? {
+            "SS" | "SPS" | "UPU" => Bond::Rod,
+            "parallelogram" => Bond::Parallelogram(both("axis")?),
+            letter => {
+                let axes = if joint["axis"].is_null() { both("axes") } else { both("axis") };
+                // A spherical joint has no axis, and looks the same from everywhere.
+                Bond::Joint(JointKind::from_letter(letter)?, axes.unwrap_or([[0.0, 0.0, 1.0]; 2]))
+            }
+        };
+        for side in 0..2 {
+            bodies[of[side]].points.push(at[side]);
+        }
+        joints.push(SpaceHinge { name: joint["name"].as_str()?.to_owned(), number, of, at, bond });
+    }
+    let trace = |name: &String| {
+        let (of, at) = name.split_once('.')?;
+        Some((name.clone(), body(&Value::from(of))?, three(&fields[of][at], real)?))
+    };
+    let traces = traced(document).iter().filter_map(trace).collect();
+    Some(SpaceFigure { bodies, joints, ground: body(&mechanism["ground"])?, traces })
 }
 
 fn placement(value: &Value) -> Option<Placement> {

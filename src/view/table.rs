@@ -104,6 +104,11 @@ fn of_modes(document: &Value, listed: &[(usize, &Track<'_>)]) -> String {
         let unit = |variable: &Value| if variable["kind"] == "distance" { "m" } else { "\u{b0}" };
         heads.extend(variables.iter().map(|v| format!("{} [{}]", v["name"].as_str().unwrap_or_default(), unit(v))));
     }
+    let placed = placed(document);
+    heads.extend(placed.iter().flat_map(|body| ["x", "y", "z"].map(|axis| format!("{body} {axis} [m]"))));
+    // Without any R or P joint the values of joints and the places may be the same in all modes.
+    let turned = if list(&document["mechanism"], "joints").iter().any(is_placing) { &[] } else { placed.as_slice() };
+    heads.extend(turned.iter().flat_map(|body| ["qw", "qx", "qy", "qz"].map(|part| format!("{body} {part}"))));
     // Linkages have none.
     let has_condition = has("condition", |value| !value.is_null()) || document["kind"] != "linkage";
     heads.extend(has_condition.then(|| "condition".to_owned()));
@@ -142,6 +147,12 @@ fn of_modes(document: &Value, listed: &[(usize, &Track<'_>)]) -> String {
             });
             cells.extend(values);
         }
+        for body in &placed {
+            cells.extend(list(&mode["bodies"][*body], "position").iter().map(|x| complex(x, 1.0, 4)));
+        }
+        for body in turned {
+            cells.extend(list(&mode["bodies"][*body], "quaternion").iter().map(|x| complex(x, 1.0, 4)));
+        }
         // The nearest configuration has none.
         let is_nearest = track.kind == Kind::Nearest;
         let own = || if is_nearest { Cell::number(None, 0) } else { condition(&mode["condition"]) };
@@ -164,6 +175,23 @@ fn of_modes(document: &Value, listed: &[(usize, &Track<'_>)]) -> String {
         _ => "Assembly modes".to_owned(),
     };
     written(&noun, &heads, &rows)
+}
+
+/// Whether the value of a joint says where its second body is on its first one.
+fn is_placing(joint: &Value) -> bool {
+    joint["type"] == "R" || joint["type"] == "P"
+}
+
+/// The bodies of a linkage in space on which no R or P joint stands second: their places are listed, as in the text of `solve`.
+fn placed(document: &Value) -> Vec<&str> {
+    let mechanism = &document["mechanism"];
+    if mechanism["space"] != "space" {
+        return Vec::new();
+    }
+    let moved: Vec<&Value> =
+        list(mechanism, "joints").iter().filter(|joint| is_placing(joint)).map(|joint| &joint["of"][1]).collect();
+    let bodies = mechanism["bodies"].as_object().into_iter().flatten().map(|(name, _)| name.as_str());
+    bodies.filter(|name| mechanism["ground"] != *name && !moved.iter().any(|own| *own == name)).collect()
 }
 
 /// The caption of the table of a pose that nothing reaches.

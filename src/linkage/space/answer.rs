@@ -2,6 +2,7 @@
 
 use super::clusters::{clusters, groups};
 use super::equations::System;
+use super::six_legs::{Pose, SixLegs};
 use super::universal::{Count, Plate, PlatePose};
 use super::values::{mode, real_point};
 use crate::algebra::disc::Disc;
@@ -13,6 +14,7 @@ use crate::kinematics::motion::{Motion, Vector};
 use crate::kinematics::space::{SpaceGiven, SpaceLinkage};
 use crate::linkage::points::{EFFORT, Points};
 use crate::mechanism::exact_loop::roots::Root;
+use crate::mechanism::Solution;
 use crate::verdict::{Code, Proof, Status, Verdict};
 use num_complex::Complex;
 use std::time::Instant;
@@ -35,8 +37,10 @@ pub type Coordinate = Complex<f64>;
 pub struct SpaceMode {
     /// Whether it is real.
     pub real: bool,
-    /// The multiplicity.
+    /// The multiplicity; 0 where it is not known.
     pub multiplicity: usize,
+    /// Whether exactly one assembly is proved to lie within `radius`.
+    pub certified: bool,
     /// The values of the joints that have one: radians or metres.
     pub joints: Vec<Option<Coordinate>>,
     /// The motions of the bodies against the ground.
@@ -101,9 +105,10 @@ pub fn solve(linkage: &SpaceLinkage, given: &[SpaceGiven], exact: bool) -> Resul
     let system = System::of(linkage, given, &all)?;
     let plate = Plate::of(linkage, given, &system);
     let counted_plate = plate.and_then(|plate| plate.count().map(|count| (plate, count)));
-    let ((mut modes, sample, verdict), route) = match counted_plate {
-        Some((plate, count)) => (by_paths(linkage, given, &system, (&plate, count), exact), "paths"),
-        None => (by_basis(linkage, given, &system, exact)?, "Gröbner basis"),
+    let ((mut modes, sample, verdict), route) = match (counted_plate, SixLegs::of(linkage, given, &system)) {
+        (Some((plate, count)), _) => (by_paths(linkage, given, &system, (&plate, count), exact), "paths"),
+        (None, Some(legs)) => (by_legs(linkage, given, &system, &legs, exact)?, "platform"),
+        (None, None) => (by_basis(linkage, given, &system, exact)?, "Gröbner basis"),
     };
     sort(&mut modes);
     let groups = counted(linkage, given, verdict.complex, route)?;
@@ -145,6 +150,29 @@ fn by_paths(
     };
     let verdict = counted_verdict(&modes, count, sample.is_some(), exact);
     (modes, sample, verdict)
+}
+
+/// All assemblies of a plate on six legs, by the engine for platforms.
+fn by_legs(
+    linkage: &SpaceLinkage,
+    given: &[SpaceGiven],
+    system: &System,
+    legs: &SixLegs,
+    exact: bool,
+) -> Result<Listed> {
+    let Solution { mut verdict, modes, families, .. } = legs.solve()?;
+    let modes = modes.iter().filter_map(|pose| legs.mode(linkage, given, system, &Pose::of(pose))).collect();
+    // A family of poses has the lengths of the legs, which are the values of its joints.
+    let sample = families.first().and_then(|family| {
+        let q: Vec<Coordinate> = family.sample.iter().map(|x| Complex::new(*x, 0.0)).collect();
+        let pose = Pose { q: &q, real: true, multiplicity: 0, certified: false, radius: f64::EPSILON };
+        Some((legs.mode(linkage, given, system, &pose)?, Vec::new()))
+    });
+    verdict.proof = verdict.proof.of_rounded(!exact);
+    if !exact {
+        verdict.reason += "; some numbers of the file were rounded";
+    }
+    Ok((modes, sample, verdict))
 }
 
 /// Real assemblies first.

@@ -8,6 +8,7 @@ mod clusters;
 mod conditions;
 mod equations;
 mod rates;
+mod six_legs;
 mod universal;
 mod values;
 

@@ -74,7 +74,7 @@ pub(super) fn mode(
 }
 
 /// Places the rods, and measures the joints.
-fn finished(
+pub(super) fn finished(
     linkage: &SpaceLinkage,
     given: &[SpaceGiven],
     system: &System,
@@ -104,7 +104,7 @@ fn finished(
         bodies.into_iter().map(|body| body.unwrap_or_else(Motion::identity)).collect();
     let residual = linkage.joints.iter().map(|joint| open(joint, &bodies)).fold(0.0, f64::max);
     let joints = linkage.joints.iter().map(|joint| value(joint, &bodies, real)).collect();
-    SpaceMode { real, multiplicity, joints, bodies, residual, radius }
+    SpaceMode { real, multiplicity, certified: true, joints, bodies, residual, radius }
 }
 
 /// A rotation that takes one vector along another one of equal length, without turning about it where that can be said.

@@ -45,9 +45,7 @@ pub fn run_to(options: &SweepOptions, open: impl FnOnce() -> Result<Output, Faul
         Any::Entry(entry) => *entry,
         Any::Linkage(file) => return super::linkage_sweep::run(options, &file, open),
         Any::Sphere(file) => return super::sphere::sweep(options, &file, open),
-        Any::Space(_) => {
-            return Err(Error::Unsupported("linkages in space are not swept yet".to_owned()).into());
-        }
+        Any::Space(file) => return super::space::sweep(options, &file, open),
         other => {
             return Err(unexpected(
                 &options.mechanism,
@@ -78,16 +76,7 @@ pub fn run_to(options: &SweepOptions, open: impl FnOnce() -> Result<Output, Faul
     let range = range(options, swept.variable, &entry.reading)?;
     let follower = options.ratio.as_ref().map(|name| variable(chain, name)).transpose()?;
     let output = open()?;
-    let target = if output.is_terminal || options.quiet {
-        ProgressDrawTarget::hidden()
-    } else {
-        // The bar hides itself if stderr is no terminal.
-        ProgressDrawTarget::stderr()
-    };
-    let progress = ProgressBar::with_draw_target(Some(options.steps as u64 + 1), target);
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} {per_sec} {eta}") {
-        progress.set_style(style);
-    }
+    let progress = progress(options, &output);
     let stop = stop_on_interrupt();
     let running = || !stop.load(Ordering::Relaxed);
     let pool = pool(options.threads)?;
@@ -102,6 +91,21 @@ pub fn run_to(options: &SweepOptions, open: impl FnOnce() -> Result<Output, Faul
     let more = More { rolling, ratio: ratio.transpose()? };
     write(options, &entry, swept, (&found, &more), output)?;
     Ok(exit(&found))
+}
+
+/// Returns a bar that counts the inputs of a sweep.
+pub fn progress(options: &SweepOptions, output: &Output) -> ProgressBar {
+    let target = if output.is_terminal || options.quiet {
+        ProgressDrawTarget::hidden()
+    } else {
+        // The bar hides itself if stderr is no terminal.
+        ProgressDrawTarget::stderr()
+    };
+    let progress = ProgressBar::with_draw_target(Some(options.steps as u64 + 1), target);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} {per_sec} {eta}") {
+        progress.set_style(style);
+    }
+    progress
 }
 
 /// What is requested beside the branches.
