@@ -379,6 +379,10 @@ pub fn derive_in_space(linkage: &SpaceLinkage, given: &[SpaceGiven]) -> Result<R
         let message = "closure polynomials of plates on UPU legs are not derived: their poses are known modulo a prime and one by one";
         return Err(Error::Unsupported(message.to_owned()));
     }
+    if space::is_platform(linkage, given) {
+        let message = "a plate on six legs of given lengths is a platform, whose closure polynomial has other equations";
+        return Err(Error::Unsupported(message.to_owned()));
+    }
     let list = clusters(linkage, given, &bodies(linkage))?;
     let parts = groups(linkage, given, &list);
     if let [(group, held)] = parts.as_slice() {

@@ -1,6 +1,7 @@
 //! Linkages in the plane, on the sphere and in space.
 
 use super::arm::angle;
+use super::model::Model;
 use crate::algebra::number::Number;
 use crate::catalogue::entry::InputValue;
 use crate::catalogue::{Any, LinkageCase, LinkageFile, Options, SpaceFile, SphereCase, SphereFile, load_any};
@@ -8,6 +9,7 @@ use crate::derivation::{derive_in_space, derive_linkage, derive_on_sphere, spher
 use crate::error::{Error, Result};
 use crate::kinematics::joint::Variable;
 use crate::kinematics::linkage::Given;
+use crate::linkage::space::platform_of;
 use crate::mobility::solve_or_move;
 use crate::report::certificate::certificate_of_linkage;
 use crate::report::linkage_sweep::{Asked, Traced};
@@ -229,6 +231,10 @@ impl Linkage {
             }
             Kind::Space(file) => {
                 let case = file.case_at(&self.values(given)?)?;
+                if let Some(platform) = platform_of(file, &case)? {
+                    let legs = platform.cases[0].clone();
+                    return Model::new(platform).derive(&legs);
+                }
                 let derivation = derive_in_space(&file.linkage, &case.given)?;
                 let file = SpaceFile { cases: vec![case], ..(**file).clone() };
                 Ok(ring_derivation::json(&Named::in_space(&file, 1), &derivation))

@@ -17,3 +17,4 @@ pub use clusters::{clusters, groups};
 pub use conditions::conditions;
 pub use equations::{Symbol, System};
 pub use rates::{SpaceRates, rates};
+pub use six_legs::{is_platform, platform_of};

@@ -1,15 +1,17 @@
 //! A plate on six rods or legs of given lengths: the assemblies are those of a platform, whose engine lists and proves them.
 
-use super::answer::SpaceMode;
+use super::answer::{SpaceMode, bodies};
 use super::clusters::{home, open_joints};
 use super::equations::System;
 use super::values::finished;
 use crate::algebra::number::{Number, nearest_f64};
 use crate::assembly::{Assembly, Roots, Workspace};
-use crate::catalogue::entry::Case;
+use crate::catalogue::entry::{Case, Design, Entry, Labels};
+use crate::catalogue::{SpaceCase, SpaceFile};
 use crate::error::Result;
 use crate::kinematics::motion::{Motion, Vector, dot};
 use crate::kinematics::platform::Platform;
+use crate::kinematics::platform_limits::PlatformLimits;
 use crate::kinematics::space::{Known, SpaceGiven, SpaceLinkage, SpacePair};
 use crate::mechanism::{FullMode, Mechanism, Solution};
 use num_complex::Complex;
@@ -99,6 +101,25 @@ impl SixLegs {
         Some(Self { plate, geometry, squares: legs.each_ref().map(|leg| Number::exact(leg.square.clone())) })
     }
 
+    /// Returns a platform of which this is all, with the title and the name of a file. Its legs are in the order of the file: those
+    /// without a body first.
+    fn entry(self, file: &SpaceFile, case: &SpaceCase) -> Entry {
+        let heading = &file.heading;
+        Entry {
+            name: heading.name.clone(),
+            title: heading.title.clone(),
+            source: heading.source.clone(),
+            notes: heading.notes.clone(),
+            design: Design::Platform(Box::new(self.geometry)),
+            limits: Vec::new(),
+            platform_limits: PlatformLimits::default(),
+            cases: vec![Case::legs(self.squares, case.line)],
+            rounded: !(file.exact && case.exact),
+            reading: file.reading.clone(),
+            labels: Labels::default(),
+        }
+    }
+
     /// Returns the answer of the engine for platforms.
     ///
     /// # Errors
@@ -143,6 +164,21 @@ impl SixLegs {
         let mode = finished(linkage, given, system, bodies, pose.real, pose.multiplicity, radius);
         Some(SpaceMode { certified: pose.certified, ..mode })
     }
+}
+
+/// Returns the platform that a linkage is in a case: a plate on six rods or legs of given lengths; `None` for other linkages.
+///
+/// # Errors
+/// For inputs that leave freedoms by count or hold what others hold.
+pub fn platform_of(file: &SpaceFile, case: &SpaceCase) -> Result<Option<Entry>> {
+    let system = System::of(&file.linkage, &case.given, &bodies(&file.linkage))?;
+    Ok(SixLegs::of(&file.linkage, &case.given, &system).map(|legs| legs.entry(file, case)))
+}
+
+/// Whether a linkage is a plate on six rods or legs of given lengths.
+#[must_use]
+pub fn is_platform(linkage: &SpaceLinkage, given: &[SpaceGiven]) -> bool {
+    System::of(linkage, given, &bodies(linkage)).is_ok_and(|system| SixLegs::of(linkage, given, &system).is_some())
 }
 
 /// The rotation matrix of a quaternion of norm 1.

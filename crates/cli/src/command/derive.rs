@@ -1,6 +1,6 @@
 //! `looproot derive`
 
-use super::arguments::DeriveOptions;
+use super::arguments::{CaseOptions, DeriveOptions};
 use super::bless;
 use super::certificates::Certificates;
 use super::discriminant::{self, Asked};
@@ -16,6 +16,7 @@ use looproot::internal::derivation::{
     derive_with_symbols, surface,
 };
 use looproot::internal::error::Error;
+use looproot::internal::linkage::space;
 use looproot::internal::report::derivation::{json, paper, system, text, verdict};
 use looproot::internal::report::document::complete;
 use looproot::internal::report::json::kind;
@@ -44,7 +45,7 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
     // Points of an arm move without a pose.
     let chains = if options.trace.is_some() { Chains::Swept } else { options.asked.chains() };
     let read = Options { chains, ..options.read.options() };
-    let mut entry = match load_solvable(mechanism, &read)? {
+    let entry = match load_solvable(mechanism, &read)? {
         Any::Entry(entry) if !options.cognates => *entry,
         Any::Linkage(_) | Any::Sphere(_) if options.certificate.is_some() => return Err(without_certificate()),
         Any::Linkage(file) => return super::linkage_derive::run(options, mechanism, &file),
@@ -53,7 +54,14 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
             return Err(Error::Invalid(message.to_owned()).into());
         }
         Any::Sphere(file) => return super::sphere::derive(options, mechanism, &file),
-        Any::Space(file) => return in_space(options, mechanism, &file),
+        Any::Space(file) => match platform_of(options, mechanism, &file)? {
+            Some(entry) => {
+                // The case of the linkage was chosen before.
+                let asked = CaseOptions { input: None, ..options.asked.clone() };
+                return of_entry(options, &asked, mechanism, entry);
+            }
+            None => return in_space(options, mechanism, &file),
+        },
         other => return Err(unexpected(mechanism, other.kind(), "an arm, a loop, a platform or a linkage")),
     };
     if let Some(asked) = &options.trace {
@@ -63,8 +71,24 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
         }
         return traced(options, mechanism, &entry, asked);
     }
+    of_entry(options, &options.asked, mechanism, entry)
+}
+
+/// Returns the platform that the case of a linkage in space is; `None` of other linkages, and where the curve of a point is asked for.
+fn platform_of(options: &DeriveOptions, mechanism: &str, file: &SpaceFile) -> Result<Option<Entry>, Error> {
+    if options.trace.is_some() {
+        return Ok(None);
+    }
+    let file = &*super::space::posed(options.asked.input.as_deref(), file)?;
+    let index = super::space::wanted(options.asked.input.as_deref(), file)?.start;
+    let case = &file.cases[index];
+    space::platform_of(file, case).map_err(|error| error.at(mechanism, case.line))
+}
+
+/// Derives the closure polynomial of an arm, a loop or a platform, or prints its cells.
+fn of_entry(options: &DeriveOptions, asked: &CaseOptions, mechanism: &str, mut entry: Entry) -> Result<Exit, Fault> {
     let whole = entry.clone();
-    let index = wanted(&options.asked, mechanism, &mut entry)?.start;
+    let index = wanted(asked, mechanism, &mut entry)?.start;
     let case = &entry.cases[index];
     if let Some(names) = &options.discriminant {
         let asked = Asked {
