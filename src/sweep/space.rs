@@ -8,7 +8,7 @@ use crate::catalogue::SpaceFile;
 use crate::error::{Error, Result};
 use crate::kinematics::motion::{Motion, Vector};
 use crate::kinematics::space::SpaceGiven;
-use crate::linkage::space::{Coordinate, SpaceMode, bodies, clusters, solve};
+use crate::linkage::space::{Coordinate, SpaceMode, bodies, clusters, solve_real};
 use crate::verdict::Status;
 use num_complex::Complex;
 use rug::Rational;
@@ -43,7 +43,7 @@ impl Running for Run<'_> {
     type Memory = ();
 
     fn sample(&self, input: f64, (): &mut ()) -> Result<AssemblySample<SpaceMode>> {
-        let answer = match solve(&self.file.linkage, &self.given(input)?, true) {
+        let answer = match solve_real(&self.file.linkage, &self.given(input)?, true) {
             Ok(answer) => answer,
             // A basis may be too large at one input, and not at others.
             Err(Error::Unsupported(reason)) => {
@@ -102,7 +102,7 @@ impl Running for Run<'_> {
 /// `tick` is called for every step.
 ///
 /// # Errors
-/// For joints without a value and empty ranges, and as [`solve`].
+/// For joints without a value and empty ranges, and as [`solve_real`].
 pub fn sweep_space(file: &SpaceFile, joint: usize, range: Range, tick: impl Fn() + Sync) -> Result<SpaceSweep> {
     let linkage = &file.linkage;
     let held: Vec<SpaceGiven> = file.cases[0].given.iter().filter(|one| one.joint != Some(joint)).cloned().collect();

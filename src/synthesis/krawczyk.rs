@@ -36,7 +36,8 @@ fn zero() -> Disc {
     Disc::point(Float::new(BITS), Float::new(BITS))
 }
 
-fn centre(disc: &Disc) -> Disc {
+/// The centre of a disc.
+pub(crate) fn centre(disc: &Disc) -> Disc {
     Disc::point(Float::with_val(BITS, &disc.re), Float::with_val(BITS, &disc.im))
 }
 

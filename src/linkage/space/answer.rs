@@ -3,12 +3,14 @@
 use super::clusters::{clusters, groups};
 use super::equations::System;
 use super::six_legs::{Pose, SixLegs};
-use super::universal::{Count, Plate, PlatePose};
+use super::plate_pose::PlatePose;
+use super::universal::{Count, Plate};
 use super::values::{mode, real_point};
 use crate::algebra::disc::Disc;
 use crate::algebra::drawn;
 use crate::algebra::groebner::{Basis, FiniteRing};
 use crate::algebra::sort;
+use crate::assembly::Roots;
 use crate::error::{Error, Result};
 use crate::kinematics::motion::{Motion, Vector};
 use crate::kinematics::space::{SpaceGiven, SpaceLinkage};
@@ -100,6 +102,18 @@ fn too_much() -> Error {
 /// # Errors
 /// Where inputs are too few or hold what others hold, and for linkages that are beyond what is implemented.
 pub fn solve(linkage: &SpaceLinkage, given: &[SpaceGiven], exact: bool) -> Result<SpaceAnswer> {
+    answered(linkage, given, exact, Roots::All)
+}
+
+/// As [`solve`], with the verdict on all assemblies, where only real ones are wanted in the list: others may be left out of it.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_real(linkage: &SpaceLinkage, given: &[SpaceGiven], exact: bool) -> Result<SpaceAnswer> {
+    answered(linkage, given, exact, Roots::Real)
+}
+
+fn answered(linkage: &SpaceLinkage, given: &[SpaceGiven], exact: bool, wanted: Roots) -> Result<SpaceAnswer> {
     let start = Instant::now();
     let all = bodies(linkage);
     let system = System::of(linkage, given, &all)?;
@@ -107,7 +121,7 @@ pub fn solve(linkage: &SpaceLinkage, given: &[SpaceGiven], exact: bool) -> Resul
     let counted_plate = plate.and_then(|plate| plate.count().map(|count| (plate, count)));
     let ((mut modes, sample, verdict), route) = match (counted_plate, SixLegs::of(linkage, given, &system)) {
         (Some((plate, count)), _) => (by_paths(linkage, given, &system, (&plate, count), exact), "paths"),
-        (None, Some(legs)) => (by_legs(linkage, given, &system, &legs, exact)?, "platform"),
+        (None, Some(legs)) => (by_legs(linkage, given, &system, &legs, (exact, wanted))?, "platform"),
         (None, None) => (by_basis(linkage, given, &system, exact)?, "Gröbner basis"),
     };
     sort(&mut modes);
@@ -158,10 +172,11 @@ fn by_legs(
     given: &[SpaceGiven],
     system: &System,
     legs: &SixLegs,
-    exact: bool,
+    (exact, wanted): (bool, Roots),
 ) -> Result<Listed> {
     let Solution { mut verdict, modes, families, .. } = legs.solve()?;
-    let modes = modes.iter().filter_map(|pose| legs.mode(linkage, given, system, &Pose::of(pose))).collect();
+    let modes = modes.iter().filter(|pose| pose.real || wanted == Roots::All);
+    let modes = modes.filter_map(|pose| legs.mode(linkage, given, system, &Pose::of(pose))).collect();
     // A family of poses has the lengths of the legs, which are the values of its joints.
     let sample = families.first().and_then(|family| {
         let q: Vec<Coordinate> = family.sample.iter().map(|x| Complex::new(*x, 0.0)).collect();
@@ -259,9 +274,10 @@ fn assembled(
     best
 }
 
-/// The largest coordinate, or 1.
+/// The largest coordinate or entry of a rotation, or 1.
 fn size(mode: &SpaceMode) -> f64 {
-    let all = mode.bodies.iter().flat_map(|body| &body.translation).map(|c| c.norm());
+    let all = mode.bodies.iter().flat_map(|body| body.rotation.iter().flatten().chain(&body.translation));
+    let all = all.map(|c| c.norm());
     all.fold(1.0, f64::max)
 }
 

@@ -7,12 +7,13 @@ mod answer;
 mod clusters;
 mod conditions;
 mod equations;
+mod plate_pose;
 mod rates;
 mod six_legs;
 mod universal;
 mod values;
 
-pub use answer::{Coordinate, SpaceAnswer, SpaceGroup, SpaceMode, bodies, solve};
+pub use answer::{Coordinate, SpaceAnswer, SpaceGroup, SpaceMode, bodies, solve, solve_real};
 pub use clusters::{clusters, groups};
 pub use conditions::conditions;
 pub use equations::{Symbol, System};

@@ -58,7 +58,8 @@ pub(super) fn mode(
         for (body, own) in &cluster.bodies {
             let whole = place.then_after(&own.map(Disc::from_rational)?);
             for disc in whole.rotation.iter().flatten().chain(&whole.translation) {
-                radius = radius.max(disc.radius().to_f64());
+                // A number is listed in f64, which rounds it.
+                radius = radius.max(disc.radius().to_f64() + f64::EPSILON * middle(disc).norm());
             }
             let clean = |disc: &Disc| {
                 let z = middle(disc);

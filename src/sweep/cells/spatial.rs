@@ -206,7 +206,7 @@ impl Subject for SpaceCase {
     }
 
     fn real_modes(&self) -> Option<usize> {
-        let answer = space::solve(&self.file.linkage, &self.file.cases[0].given, true).ok()?;
+        let answer = space::solve_real(&self.file.linkage, &self.file.cases[0].given, true).ok()?;
         is_complete(&answer.verdict).then(|| answer.modes.iter().filter(|mode| mode.real).count())
     }
 

@@ -11,7 +11,7 @@ use looproot::internal::assembly::{Assembly, Roots, Workspace};
 use looproot::internal::catalogue::entry::{Design, Entry, Kind};
 use looproot::internal::catalogue::{SpaceFile, SphereFile};
 use looproot::internal::error::Error;
-use looproot::internal::linkage::space::solve as solve_in_space;
+use looproot::internal::linkage::space::solve_real as solve_in_space;
 use looproot::internal::linkage::sphere::solve;
 use looproot::internal::mechanism::{Derivatives, InputCurve, Mechanism};
 use looproot::internal::report::document::complete;

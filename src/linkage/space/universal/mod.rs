@@ -9,24 +9,24 @@ mod start;
 
 use super::clusters::open_joints;
 use super::equations::System;
+use super::plate_pose::{PlatePose, PoseForms, proved, times};
 use crate::algebra::disc::Disc;
 use crate::algebra::drawn::Drawn;
 use crate::algebra::groebner::{Basis, Equation};
 use crate::algebra::ring::Ring;
-use crate::closure::study::scalar;
-use crate::closure::universal_leg::{UniversalLeg, joined};
-use crate::kinematics::motion::{Motion, Vector, dot};
+use crate::closure::study::{Four, scalar};
+use crate::closure::universal_leg::UniversalLeg;
+use crate::kinematics::motion::{Vector, dot};
 use crate::kinematics::space::{Known, SpaceGiven, SpaceLinkage, SpacePair};
 use crate::linkage::points::EFFORT;
 use crate::solve::paths::{Family, arc};
-use crate::synthesis::krawczyk::{BITS, Square};
-use looproot_calculus::quaternion::DualQuaternion;
+use crate::synthesis::krawczyk::BITS;
 use num_complex::Complex;
-use paths::{Legs, Moving, Pose, is_pose, parts};
+use paths::{Legs, Moving, Pose, is_pose};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
-use rug::{Float, Rational};
+use rug::Rational;
 use start::{GENERAL, start};
 use std::f64::consts::TAU;
 
@@ -55,24 +55,6 @@ pub(super) enum Count {
     Finite(usize),
     /// They form a set of this dimension.
     Dimension(usize),
-}
-
-/// A pose that is proved to be one.
-#[derive(Clone, Debug)]
-pub(super) struct PlatePose {
-    /// Its motion against the ground.
-    pub place: Motion<Disc>,
-    /// Whether it is real.
-    pub is_real: bool,
-}
-
-impl PlatePose {
-    fn is_apart_from(&self, other: &Self) -> bool {
-        let numbers = |pose: &Self| -> Vec<Disc> {
-            pose.place.rotation.iter().flatten().chain(&pose.place.translation).cloned().collect()
-        };
-        numbers(self).iter().zip(&numbers(other)).any(|(a, b)| a.sub(b).is_not_zero())
-    }
 }
 
 impl Plate {
@@ -131,7 +113,7 @@ impl Plate {
         // Any fixed seed: a pose is proved however it was found.
         let random = &mut ChaCha8Rng::seed_from_u64(1);
         let mut list: Vec<PlatePose> = Vec::new();
-        let exact = self.legs.each_ref().map(|leg| leg.over(|c| Disc::of(c, BITS)));
+        let exact = Exact(self.legs.each_ref().map(|leg| leg.over(|c| Disc::of(c, BITS))));
         for _ in 0..TRIES {
             let bend = Complex::from_polar(1.0, random.random_range(0.0..TAU));
             let carried = |v: &Pose| {
@@ -180,53 +162,16 @@ impl GivenLeg {
     }
 }
 
-/// The equations of a plate at Study's parameters, of which one is held at 1.
-struct Fixed<'a> {
-    legs: &'a [UniversalLeg<Disc>; 3],
-    chart: usize,
-}
+/// The legs with the numbers of their forms as discs.
+struct Exact([UniversalLeg<Disc>; 3]);
 
-fn times(z: &Disc, c: &Disc) -> Disc {
-    z.mul(c)
-}
-
-/// The parameters of eight discs.
-fn halves(unknowns: &[Disc]) -> [[Disc; 4]; 2] {
-    let all: [Disc; 8] = std::array::from_fn(|k| unknowns[k].clone());
-    parts(&all)
-}
-
-impl Square for Fixed<'_> {
-    fn values(&self, unknowns: &[Disc]) -> Vec<Disc> {
-        let [x, y] = halves(unknowns);
-        let forms = self.legs.iter().flat_map(|leg| leg.values(&x, &y, times));
-        forms.chain([scalar(&x, &y), unknowns[self.chart].sub(&Disc::one())]).collect()
+impl PoseForms for Exact {
+    fn values(&self, x: &Four<Disc>, y: &Four<Disc>) -> Vec<Disc> {
+        self.0.iter().flat_map(|leg| leg.values(x, y, times)).collect()
     }
 
-    fn slopes(&self, unknowns: &[Disc]) -> Vec<Vec<Disc>> {
-        let [x, y] = halves(unknowns);
-        let unit = std::array::from_fn(|k| if k == self.chart { Disc::one() } else { Disc::zero() });
-        let mut rows: Vec<[Disc; 8]> = self.legs.iter().flat_map(|leg| leg.slopes(&x, &y, times)).collect();
-        rows.extend([joined(&y, &x), unit]);
-        (0..8).map(|k| rows.iter().map(|row| row[k].clone()).collect()).collect()
+    fn slopes(&self, x: &Four<Disc>, y: &Four<Disc>) -> Vec<[Disc; 8]> {
+        self.0.iter().flat_map(|leg| leg.slopes(x, y, times)).collect()
     }
 }
 
-/// Returns the pose near parameters in parts of a size; `None` where it is not proved to be one, or not whether it is real.
-fn proved(legs: &[UniversalLeg<Disc>; 3], near: &Pose, size: f64) -> Option<PlatePose> {
-    let scaled: Pose = std::array::from_fn(|k| near[k] * if k < 4 { 1.0 } else { size });
-    let chart = (0..8).max_by(|j, k| scaled[*j].norm_sqr().total_cmp(&scaled[*k].norm_sqr()))?;
-    let inverse = scaled[chart].inv();
-    let disc = |z: &Complex<f64>| {
-        let z = z * inverse;
-        Disc::point(Float::with_val(BITS, z.re), Float::with_val(BITS, z.im))
-    };
-    let system = Fixed { legs, chart };
-    let unknowns = system.refined(scaled.iter().map(disc).collect())?;
-    let (boxes, is_real) = system.certified(unknowns)?;
-    let [x, y] = halves(&boxes);
-    let half = Disc::of(&Rational::from((1, 2)), BITS);
-    let (motion, norm) = DualQuaternion::from_study(&x, &y.map(|z| z.mul(&half))).scaled_motion();
-    let inverse = norm.inverse()?;
-    Some(PlatePose { place: motion.map(|z| Some(z.mul(&inverse)))?, is_real })
-}
