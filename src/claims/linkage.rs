@@ -2,7 +2,7 @@
 
 use super::{Finding, Judgement, Sort};
 use crate::catalogue::{LinkageClaim, LinkageFile};
-use crate::derivation::trace;
+use crate::derivation::{Watch, trace};
 use crate::error::Result;
 use crate::linkage::answer::{LinkageAnswer, LinkageMode, solve};
 use crate::verdict::Status;
@@ -52,7 +52,7 @@ pub(super) fn linkage(file: &LinkageFile) -> Result<Judgement> {
     }
     for claim in &file.traces {
         let given = file.cases.first().map_or(&[][..], |case| &case.given);
-        let degree = trace(&file.linkage, given, claim.body, &claim.point.1)?.degree();
+        let degree = trace(&file.linkage, given, claim.body, &claim.point.1, &Watch::none())?.degree();
         let message = format!("claims a curve of degree {} of {}, found {degree}", claim.degree, claim.point.0);
         let holds = degree == claim.degree;
         judgement.findings.push(Finding { case: 1, file: None, line: claim.line, sort: Sort::Complex, holds, message });

@@ -2,7 +2,7 @@
 
 use super::{Finding, Judgement, Sort};
 use crate::catalogue::{SphereCase, SphereClaim, SphereFile};
-use crate::derivation::sphere_trace;
+use crate::derivation::{Watch, trace_on_sphere};
 use crate::error::Result;
 use crate::linkage::sphere::{SphereAnswer, SphereMode, solve};
 use crate::verdict::Status;
@@ -50,7 +50,8 @@ pub(super) fn sphere(file: &SphereFile) -> Result<Judgement> {
     }
     for claim in &file.traces {
         let Some(point) = file.linkage.bodies[claim.body].point(&claim.point) else { continue };
-        let degree = sphere_trace(&file.linkage, claim.body, point)?.degree();
+        let given = file.cases.first().map_or(&[][..], |case| &case.given);
+        let degree = trace_on_sphere(&file.linkage, given, claim.body, point, &Watch::none())?.degree();
         let message = format!("claims a curve of degree {} of {}, found {degree}", claim.degree, claim.point);
         let holds = degree == claim.degree;
         judgement.findings.push(Finding { case: 1, file: None, line: claim.line, sort: Sort::Complex, holds, message });

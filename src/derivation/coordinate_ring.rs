@@ -5,6 +5,8 @@
 //! solution counts. With the maps N and D of two functions the roots of `det(t D - N)` are the values of their quotient, and it vanishes
 //! identically only if both are 0 at one solution.
 
+use crate::algebra::drawn::Drawn;
+use crate::algebra::echelon::Echelon;
 use crate::algebra::groebner::{Basis, Equation, FiniteRing, Quotient};
 use crate::algebra::modular::{Terms, determinant};
 use crate::algebra::ring::Ring;
@@ -15,7 +17,7 @@ use rug::{Integer, Rational};
 const MOST: usize = 96;
 
 /// A matrix by its columns.
-type Columns = Vec<Vec<Rational>>;
+pub(super) type Columns = Vec<Vec<Rational>>;
 
 /// A function on the solutions.
 #[derive(Clone, Debug)]
@@ -92,6 +94,94 @@ impl CoordinateRing {
         };
         Some((Univariate::new(polynomial.primitive_integers()), at_pi))
     }
+
+    /// Returns the products of functions with so many powers of another one, from the power 0 on, as elements of the ring: those of the
+    /// first function come first.
+    pub fn products(&self, along: &Equation, starts: &[(Equation, usize)]) -> Option<Columns> {
+        let table = self.quotient.multiplication(along)?;
+        let mut list = Vec::new();
+        for (start, count) in starts {
+            let mut next = self.quotient.element(start)?;
+            for power in 0..*count {
+                if power > 0 {
+                    next = applied(&table, &next);
+                }
+                list.push(next.clone());
+            }
+        }
+        Some(list)
+    }
+}
+
+/// Returns the combination of columns with these coefficients.
+fn applied(columns: &Columns, coefficients: &[Rational]) -> Vec<Rational> {
+    let mut sum = vec![Rational::new(); columns.len()];
+    for (column, c) in columns.iter().zip(coefficients).filter(|(_, c)| **c != 0) {
+        for (x, y) in sum.iter_mut().zip(column).filter(|(_, y)| **y != 0) {
+            *x += Rational::from(c * y);
+        }
+    }
+    sum
+}
+
+/// Returns the rows of elements, given as columns, that are independent modulo the prime of this run, and hence over the rationals: their
+/// number is the rank there. `None` where a denominator is 0 modulo the prime.
+fn independent_rows(columns: &[Vec<Rational>]) -> Option<Vec<usize>> {
+    let size = columns.first().map_or(0, Vec::len);
+    let row = |i: usize| columns.iter().map(|column| Drawn::from_rational(&column[i])).collect::<Option<Vec<Drawn>>>();
+    let rows = (0..size).map(row).collect::<Option<Vec<_>>>()?;
+    Some(Echelon::of(rows, columns.len()).independent_rows().to_vec())
+}
+
+/// Returns the rank of elements modulo the prime of this run, at most that over the rationals.
+pub(super) fn rank(columns: &[Vec<Rational>]) -> Option<usize> {
+    Some(independent_rows(columns)?.len())
+}
+
+/// Returns the coefficients of the only relation of elements, integers without common factor; `None` where there is none, or more than one.
+pub(super) fn dependence(columns: &[Vec<Rational>]) -> Option<Vec<Integer>> {
+    let count = columns.len();
+    let chosen = independent_rows(columns)?;
+    if chosen.len() + 1 != count {
+        return None;
+    }
+    // By Cramer's rule they are the minors of the chosen rows, which are the coefficients of a determinant with powers of a variable for its
+    // last row.
+    let row = |i: &usize| {
+        let common = columns.iter().fold(Integer::from(1), |common, column| common.lcm(column[*i].denom()));
+        let entry = |column: &Vec<Rational>| {
+            let number = Rational::from(&column[*i] * &common);
+            let mut terms = Terms::default();
+            if number != 0 {
+                terms.exponents.push(0);
+                terms.coefficients.push(number.numer().clone());
+            }
+            terms
+        };
+        columns.iter().map(entry).collect::<Vec<Terms>>()
+    };
+    let mut matrix: Vec<Vec<Terms>> = chosen.iter().map(row).collect();
+    let power = |k: usize| {
+        let mut terms = Terms::default();
+        terms.exponents.push(u32::try_from(k).unwrap_or(u32::MAX));
+        terms.coefficients.push(Integer::from(1));
+        terms
+    };
+    matrix.push((0..count).map(power).collect());
+    let mut coefficients = vec![Rational::new(); count];
+    for (exponents, c) in determinant(&matrix, 1)?.iter(1) {
+        coefficients[exponents[0] as usize] = Rational::from(c);
+    }
+    // The other rows have a larger rank where the prime divides a minor.
+    let size = columns.first().map_or(0, Vec::len);
+    let is_zero = |i: usize| {
+        let terms = columns.iter().zip(&coefficients).filter(|(_, c)| **c != 0);
+        terms.fold(Rational::new(), |sum, (column, c)| sum + Rational::from(&column[i] * c)) == 0
+    };
+    let whole = (0..size).filter(|i| !chosen.contains(i)).all(is_zero);
+    let mut list = Univariate::new(coefficients).primitive_integers();
+    list.resize(count, Integer::new());
+    whole.then_some(list)
 }
 
 /// Returns the polynomial of the tangent of half an angle, from that of the angle against a direction in which no solution makes half a

@@ -28,7 +28,7 @@ pub(super) const MOST_DEGREE: usize = 96;
 /// Number of values at which the result is compared with a separate derivation.
 pub(super) const COMPARED: usize = 20;
 /// Number of values that may be skipped, because their derivation uses another unknown or fails.
-const PASSED_OVER: usize = 12;
+pub(super) const PASSED_OVER: usize = 12;
 /// The first of small values: at 0 and at 1 links have length 0, and angles are right.
 const FIRST: usize = 2;
 /// A primitive root modulo the prime 2^31 - 1: its powers are scattered values.
@@ -63,7 +63,7 @@ impl Watch<'_> {
         Self { stop: &STOP, begin: &|_| (), step: &|| () }
     }
 
-    fn is_ended(&self) -> bool {
+    pub(super) fn is_ended(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
 }

@@ -17,7 +17,9 @@ mod linkage;
 mod platform;
 mod polynomial;
 mod pose;
+mod ring_curve;
 mod ring_symbolic;
+mod ring_trace;
 mod sphere;
 mod substitution;
 mod surface;
@@ -41,6 +43,7 @@ pub use linkage::{
 pub use polynomial::{ClosurePolynomial, Removed, Root};
 pub use pose::RootPose;
 pub use ring_symbolic::{RingSymbolic, derive_in_space_with_symbols, derive_on_sphere_with_symbols};
+pub use ring_trace::{CurveRelation, RingCurve, SphereTrace, trace_in_space, trace_on_sphere};
 pub use sphere::{
     SpecialPoint, SphereCurve, SphereEnd, SphereSymbol, SphereSymbolic, Transfer, sphere_sides, sphere_trace,
     sphere_with_symbols, transfer,

@@ -5,7 +5,9 @@ use super::model::Model;
 use crate::algebra::number::Number;
 use crate::catalogue::entry::InputValue;
 use crate::catalogue::{Any, LinkageCase, LinkageFile, Options, SpaceFile, SphereCase, SphereFile, load_any};
-use crate::derivation::{derive_in_space, derive_linkage, derive_on_sphere, sphere_trace, trace, transfer};
+use crate::derivation::{
+    Watch, derive_in_space, derive_linkage, derive_on_sphere, trace, trace_in_space, trace_on_sphere, transfer,
+};
 use crate::error::{Error, Result};
 use crate::kinematics::joint::Variable;
 use crate::kinematics::linkage::Given;
@@ -15,7 +17,7 @@ use crate::report::certificate::certificate_of_linkage;
 use crate::report::linkage_sweep::{Asked, Traced};
 use crate::report::ring_derivation::{self, Named};
 use crate::report::{
-    linkage, linkage_derivation, linkage_mobility, linkage_sweep, space, space_sweep, sphere, sphere_sweep,
+    linkage, linkage_derivation, linkage_mobility, linkage_sweep, ring_curve, space, space_sweep, sphere, sphere_sweep,
 };
 use crate::sweep::{Range, sweep_linkage, sweep_space, sweep_sphere};
 use crate::view::drawable;
@@ -252,15 +254,20 @@ impl Linkage {
                 let (body, name, place) = file.point(point)?;
                 // The input runs; what else is given stays.
                 let given: &[Given] = &file.cases[0].given;
-                let curve = trace(&file.linkage, given, body, &place)?;
+                let curve = trace(&file.linkage, given, body, &place, &Watch::none())?;
                 Ok(linkage_derivation::curve_json(file, 1, &file.linkage.bodies[body].name, name, &curve))
             }
             Kind::Sphere(file) => {
                 let (body, name, place) = file.point(point)?;
-                let curve = sphere_trace(&file.linkage, body, &place)?;
-                Ok(sphere::curve_json(file, 1, &file.linkage.bodies[body].name, name, &curve))
+                let found = trace_on_sphere(&file.linkage, &file.cases[0].given, body, &place, &Watch::none())?;
+                Ok(sphere::trace_json(file, 1, (&file.linkage.bodies[body].name, name), &found))
             }
-            Kind::Space(_) => Err(in_space("curves")),
+            Kind::Space(file) => {
+                let (body, name, place) = file.point(point)?;
+                let curve = trace_in_space(&file.linkage, &file.cases[0].given, body, &place, &Watch::none())?;
+                let named = Named::in_space(file, 1);
+                Ok(ring_curve::json(&named, (&file.linkage.bodies[body].name, name), &curve))
+            }
         }
     }
 

@@ -13,7 +13,7 @@ use super::isotropic::{Isotropic, Value};
 use super::points::EFFORT;
 use super::quadratic::Root;
 use super::real_motion::moving;
-use super::real_system::{Form, RealSystem, constant, is_real};
+use super::real_system::{Form, RealSystem, constant, cycle, is_real};
 use super::state::{Half, Number, State, number};
 use super::turn_system::TurnSystem;
 use crate::algebra::groebner::{Basis, Equation, MOST_VARIABLES};
@@ -338,8 +338,9 @@ pub struct GearedEquations {
     pub unknowns: usize,
     /// The polynomials that vanish.
     pub list: Vec<Equation>,
-    /// The rotation of every class.
+    /// The rotation of every class, and the displacements along slides.
     turns: Vec<Form>,
+    shifts: Vec<Equation>,
 }
 
 impl GearedEquations {
@@ -351,7 +352,17 @@ impl GearedEquations {
         let (few, plain) = (Torus::of(&meshes, equations.classes), Torus::plain(&meshes, equations.classes));
         let torus = lower(few.as_ref(), &plain);
         let system = torus.system(&equations.exact().filter(is_real)?)?;
-        Some(Self { unknowns: system.unknowns, list: system.equations, turns: system.turns })
+        Some(Self { unknowns: system.unknowns, list: system.equations, turns: system.turns, shifts: system.shifts })
+    }
+
+    /// Returns the two coordinates of a point: the last of cycles that [`Closure::traced`] gives, turned back by the class of the body in
+    /// whose coordinates they are.
+    #[must_use]
+    pub fn place(&self, traced: &Equations<Isotropic<Gaussian>>, base: usize) -> Option<[Equation; 2]> {
+        let sum = cycle(traced, traced.loops().checked_sub(1)?, &self.turns, &self.shifts);
+        let turn = &self.turns[base];
+        let place = sum.mul(&Form { re: turn.re.clone(), im: turn.im.neg() });
+        Some([place.re, place.im])
     }
 
     /// Returns cosine and sine of the angle of a body against another one. Both are given by their class and their rotation against it.

@@ -135,7 +135,7 @@ impl RealSystem {
             system.equations.push(Equation::one());
         }
         let bent = (0..equations.loops()).filter(|k| !is_linear(*k));
-        for sum in bent.map(|k| system.cycle(equations, k)).collect::<Vec<Form>>() {
+        for sum in bent.map(|k| cycle(equations, k, &system.turns, &system.shifts)).collect::<Vec<Form>>() {
             system.equations.extend([sum.re, sum.im]);
         }
         for class in (0..equations.classes).filter(|class| !still.contains(class)) {
@@ -145,16 +145,16 @@ impl RealSystem {
         system.equations.retain(|equation| !equation.is_zero());
         Some(system)
     }
+}
 
-    /// The sum of a cycle.
-    fn cycle(&self, equations: &Equations<Isotropic<Gaussian>>, k: usize) -> Form {
-        let links = equations.cycles[k].iter().zip(&self.turns).map(|(c, turn)| constant(&c.z).mul(turn));
-        let slides = equations.slides.iter().zip(&self.shifts).map(|(slide, shift)| {
-            let way = Form { re: shift.clone(), im: Equation::zero() };
-            constant(&slide.coefficients[k].z).mul(&self.turns[slide.class]).mul(&way)
-        });
-        links.chain(slides).fold(Form::zero(), |sum, term| sum.add(&term))
-    }
+/// Returns the sum of a cycle, with the rotations of the classes and the displacements along the slides.
+pub(super) fn cycle(equations: &Equations<Isotropic<Gaussian>>, k: usize, turns: &[Form], shifts: &[Equation]) -> Form {
+    let links = equations.cycles[k].iter().zip(turns).map(|(c, turn)| constant(&c.z).mul(turn));
+    let slides = equations.slides.iter().zip(shifts).map(|(slide, shift)| {
+        let way = Form { re: shift.clone(), im: Equation::zero() };
+        constant(&slide.coefficients[k].z).mul(&turns[slide.class]).mul(&way)
+    });
+    links.chain(slides).fold(Form::zero(), |sum, term| sum.add(&term))
 }
 
 /// Whether the second half of every number is the conjugate of the first.

@@ -366,7 +366,15 @@ pub(super) const COORDINATES: [&str; 2] = ["x", "y"];
 /// The verdict on a curve.
 #[must_use]
 pub fn curve_verdict(of: &str, curve: &Curve) -> String {
-    format!("curve of {of}: a polynomial of degree {} with {} terms", curve.degree(), curve.polynomial.len())
+    let own = format!("curve of {of}: a polynomial of degree {} with {} terms", curve.degree(), curve.polynomial.len());
+    curve.compared.map_or(own.clone(), |count| format!("{own}; {}", sections(count, "lines")))
+}
+
+/// How an interpolated curve was compared.
+pub(super) fn sections(count: usize, with: &str) -> String {
+    format!(
+        "interpolated, and equal to the sections of the linkage with {count} {with}, drawn at random (probability of error below 2^-40)"
+    )
 }
 
 fn bodies(file: &LinkageFile, curve: &Curve) -> Vec<String> {
@@ -401,6 +409,7 @@ pub fn curve_json(file: &LinkageFile, case: usize, body: &str, point: &str, curv
         "bodies": bodies(file, curve),
         "rows": curve.rows,
         "square_free": factors.collect::<Value>(),
+        "compared": curve.compared,
     });
     document
 }
@@ -410,13 +419,23 @@ pub fn curve_json(file: &LinkageFile, case: usize, body: &str, point: &str, curv
 pub fn curve_text(file: &LinkageFile, of: &str, curve: &Curve) -> String {
     let mut text = format!("{}\n", file.heading.title);
     paragraph(&mut text, &curve_verdict(of, curve));
-    let with = format!(
-        "the determinant of {} rows from the cycles of {} vanishes at every place of the point; x^2 + y^2 divides the highest terms {}",
-        curve.rows,
-        bodies(file, curve).join(", "),
-        counted(circularity(curve), "time")
+    let bodies = bodies(file, curve).join(", ");
+    let how = if curve.compared.is_some() {
+        format!(
+            "the equations of cycles and gears of {bodies} have {} with the point on a line, complex ones included, with multiplicity; the \
+             powers of y there have a relation, and that is interpolated in a linear form of x and y",
+            counted(curve.rows, "solution")
+        )
+    } else {
+        format!(
+            "the determinant of {} rows from the cycles of {bodies} vanishes at every place of the point",
+            curve.rows
+        )
+    };
+    paragraph(
+        &mut text,
+        &format!("{how}; x^2 + y^2 divides the highest terms {}", counted(circularity(curve), "time")),
     );
-    paragraph(&mut text, &with);
     let names = COORDINATES.map(str::to_owned);
     for (factor, power) in &curve.removed {
         let times = if *power > 1 { format!(", {power} times") } else { String::new() };

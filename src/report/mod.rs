@@ -33,6 +33,7 @@ pub mod paper;
 pub mod picture;
 pub mod platform_sweep;
 pub mod ratio;
+pub mod ring_curve;
 pub mod ring_derivation;
 pub mod rotation;
 pub mod scene;

@@ -58,6 +58,16 @@ impl<'f> Named<'f> {
         }
     }
 
+    /// Returns title and case in one line.
+    pub(super) fn title(&self) -> &str {
+        &self.heading
+    }
+
+    /// Returns what was derived as a document with title, source and case.
+    pub(super) fn completed(&self, own: Value) -> Value {
+        (self.complete)(own)
+    }
+
     /// Returns the name of a variable: `t_A`, `d_P`, `x_plate`.
     #[must_use]
     pub fn variable(&self, unknown: Unknown) -> String {
@@ -206,7 +216,7 @@ pub fn json(named: &Named<'_>, derivation: &RingDerivation) -> Value {
     let names: Vec<String> = derivation.symbols.iter().map(|one| named.symbol(*one)).collect();
     let equations = (1..).zip(&derivation.equations);
     let best = derivation.polynomials.first();
-    let mut document = (named.complete)(json!({
+    let mut document = named.completed(json!({
         "verdict": verdict(named, derivation),
         "equations": equations
             .map(|(k, equation)| json!({ "name": format!("equation {k}"), "text": written(equation, &names) }))
@@ -324,7 +334,7 @@ pub fn symbolic_json(named: &Named<'_>, found: &RingSymbolic) -> Value {
     let names = variables(named, found);
     let coefficients = found.coefficients();
     let coefficients = coefficients.iter().map(|c| written(&rational(c), &names));
-    (named.complete)(json!({
+    named.completed(json!({
         "verdict": symbolic_verdict(named, found),
         "equations": [],
         "steps": symbolic_steps(named, found),

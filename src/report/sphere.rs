@@ -5,13 +5,15 @@ use super::json::{number, tenths};
 use super::linkage::headline;
 use super::model;
 use super::number::{counted, duration, short};
+use super::ring_curve;
+use super::ring_derivation::Named;
 use super::table::{Columns, paragraph};
 use crate::algebra::int::Int;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::Ring;
 use crate::algebra::text::{Format, Names};
 use crate::catalogue::{SphereCase, SphereFile};
-use crate::derivation::{SpecialPoint, SphereCurve, SphereEnd, SphereSymbolic, Transfer};
+use crate::derivation::{SpecialPoint, SphereCurve, SphereEnd, SphereSymbolic, SphereTrace, Transfer};
 use crate::kinematics::sphere::SphereGiven;
 use crate::linkage::sphere::{Coordinate, SphereAnswer, SphereMode};
 use looproot_calculus::rotation::matrix::from_matrix;
@@ -226,8 +228,7 @@ fn document(file: &SphereFile, case: usize, verdict: &str, step: &str) -> Value 
 }
 
 /// The verdict on a curve.
-#[must_use]
-pub fn curve_verdict(of: &str, curve: &SphereCurve) -> String {
+fn curve_verdict(of: &str, curve: &SphereCurve) -> String {
     let own = curve.polynomial.total_degree().unwrap_or(0);
     format!(
         "curve of {of}: of degree {} in space, the sphere x^2 + y^2 + z^2 = {} and a surface of degree {own} with {} terms",
@@ -246,8 +247,7 @@ fn points_json(points: Option<&Vec<SpecialPoint>>) -> Value {
 }
 
 /// The curve of a point as one document.
-#[must_use]
-pub fn curve_json(file: &SphereFile, case: usize, body: &str, point: &str, curve: &SphereCurve) -> Value {
+fn curve_json(file: &SphereFile, case: usize, body: &str, point: &str, curve: &SphereCurve) -> Value {
     let mut document = document(file, case, &curve_verdict(&format!("{body}.{point}"), curve), CURVE);
     let names = curve.four_bar.bodies.map(|body| file.linkage.bodies[body].name.clone());
     let mirrors: Value =
@@ -270,8 +270,7 @@ pub fn curve_json(file: &SphereFile, case: usize, body: &str, point: &str, curve
 }
 
 /// The curve of a point for a reader.
-#[must_use]
-pub fn curve_text(file: &SphereFile, of: &str, curve: &SphereCurve) -> String {
+fn curve_text(file: &SphereFile, of: &str, curve: &SphereCurve) -> String {
     let mut text = format!("{}\n", file.heading.title);
     paragraph(&mut text, &curve_verdict(of, curve));
     let names = curve.four_bar.bodies.map(|body| file.linkage.bodies[body].name.as_str());
@@ -303,6 +302,33 @@ pub fn curve_text(file: &SphereFile, of: &str, curve: &SphereCurve) -> String {
         let _ = writeln!(text, "\nStereographic projection, degree {degree}\n  {} = 0", written(plane, &CHART));
     }
     text
+}
+
+/// The curve of a point, derived or interpolated, as one document.
+#[must_use]
+pub fn trace_json(file: &SphereFile, case: usize, (body, point): (&str, &str), found: &SphereTrace) -> Value {
+    match found {
+        SphereTrace::Coupler(curve) => curve_json(file, case, body, point, curve),
+        SphereTrace::Sections(curve) => ring_curve::json(&Named::on_sphere(file, case), (body, point), curve),
+    }
+}
+
+/// The verdict on the curve of a point.
+#[must_use]
+pub fn trace_verdict(of: &str, found: &SphereTrace) -> String {
+    match found {
+        SphereTrace::Coupler(curve) => curve_verdict(of, curve),
+        SphereTrace::Sections(curve) => ring_curve::verdict(of, curve),
+    }
+}
+
+/// The curve of a point for a reader.
+#[must_use]
+pub fn trace_text(file: &SphereFile, case: usize, of: &str, found: &SphereTrace) -> String {
+    match found {
+        SphereTrace::Coupler(curve) => curve_text(file, of, curve),
+        SphereTrace::Sections(curve) => ring_curve::text(&Named::on_sphere(file, case), of, curve),
+    }
 }
 
 /// The verdict on a transfer function.

@@ -2,7 +2,9 @@
 #![allow(clippy::unwrap_used)]
 
 use looproot::internal::catalogue::{Any, Format, LinkageFile, Options, any_from_text};
-use looproot::internal::derivation::{Watch, derive_linkage, derive_linkage_with_input, derive_linkage_with_symbols};
+use looproot::internal::derivation::{
+    Curve, Watch, derive_linkage, derive_linkage_with_input, derive_linkage_with_symbols, trace,
+};
 use looproot::internal::kinematics::linkage::{Accuracy, Given};
 use looproot::internal::linkage::answer::{LinkageAnswer, LinkageMode, solve};
 use looproot::internal::linkage::dyads::Dyads;
@@ -360,6 +362,88 @@ fn the_relation_of_a_geared_five_bar_has_a_length_as_a_symbol() {
     assert!(at == own.polynomial || at == own.polynomial.scale(&Int::from(Integer::from(-1))));
     let refused = with(&["crank.B.x", "crank.B.y", "wheel.D.x"]).unwrap_err().to_string();
     assert!(refused.contains("found 3 symbols, expected one to 2"), "{refused}");
+}
+
+fn curve(file: &LinkageFile, of: &str) -> Curve {
+    let (body, _, place) = file.point(of).unwrap();
+    trace(&file.linkage, &file.cases[0].given, body, &place, &Watch::none()).unwrap()
+}
+
+/// The size of a polynomial at a place of the plane, which may be complex, relative to its terms.
+fn size_at(polynomial: &Polynomial<Int>, [x, y]: [Complex<f64>; 2]) -> f64 {
+    let (mut value, mut size) = (Complex::new(0.0, 0.0), 0.0);
+    for (exponents, c) in polynomial.terms() {
+        let power = |k: usize| exponents.get(k).copied().unwrap_or(0);
+        let term = x.powu(power(0)) * y.powu(power(1)) * c.to_integer().to_f64();
+        value += term;
+        size += term.norm();
+    }
+    value.norm() / size
+}
+
+/// The curve of the joint between the rods vanishes at its places in all assemblies, complex ones too, at inputs drawn at random. Its degree
+/// is the number of assemblies with a slider that keeps the joint on a line.
+#[test]
+fn the_curve_of_a_geared_five_bar_passes_all_assemblies() {
+    for (seed, ratio, degree) in [(2, (-1, 1), 6), (3, (2, 1), 10), (5, (1, 2), 10)] {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let text = planted_with(&mut random, "A", ratio).text;
+        let file = read(&text);
+        let found = curve(&file, "rod1.C");
+        assert_eq!((found.degree(), found.compared), (degree, Some(20)), "{ratio:?}");
+        let (body, _, place) = file.point("rod1.C").unwrap();
+        let own = [place.re.to_f64(), place.im.to_f64()];
+        for _ in 0..5 {
+            let value = Rational::from((random.random_range(-50..50), random.random_range(1..30)));
+            let answer = solved(&at_input(&text, &value));
+            assert_eq!(answer.verdict.proof, Proof::Proved);
+            assert!(!answer.modes.is_empty(), "{ratio:?}");
+            for mode in &answer.modes {
+                let (angle, [x, y]) = &mode.bodies[body];
+                let (sin, cos) = (angle.sin(), angle.cos());
+                let at = [x + cos * own[0] - sin * own[1], y + sin * own[0] + cos * own[1]];
+                let off = size_at(&found.polynomial, at);
+                assert!(off < 1e-8, "{ratio:?} at {value}: {off}");
+            }
+        }
+        assert!(size_at(&found.polynomial, [Complex::new(0.37, 0.0), Complex::new(1.23, 0.1)]) > 1e-6);
+        let (bodies, _) = text.split_once("[[input]]").unwrap();
+        let slider = "joints = [\n    { name = \"K\", type = \"R\", of = [\"rod1\", \"slot\"], at = [\"C\", \"K\"] },\n    { name = \"L\", type = \
+                      \"P\", of = [\"frame\", \"slot\"], along = [3, 7] },";
+        let pinned = bodies
+            .replace("joints = [", slider)
+            .replace("frame = {", "slot = { L = [0, 0], K = [0, 0] }\nframe = { L = [1, \"5/3\"],");
+        let answer = solved(&pinned);
+        assert_eq!((answer.verdict.proof, answer.verdict.complex as u64), (Proof::Proved, degree), "{ratio:?}");
+    }
+}
+
+/// A wheel geared to the crank of a four-bar changes nothing about the coupler, also where it has two places for each of the crank: the curve
+/// from sections is the determinant.
+#[test]
+fn a_wheel_beside_a_four_bar_leaves_the_curve() {
+    let four_bar = |joints: &str, bodies: &str| {
+        read(&format!(
+            "[mechanism]\nkind = \"linkage\"\nspace = \"plane\"\nground = \"frame\"\njoints = [\n\
+             {{ name = \"A\", type = \"R\", of = [\"frame\", \"crank\"] }},\n{{ name = \"B\", type = \"R\", of = [\"crank\", \"coupler\"] }},\n\
+             {{ name = \"C\", type = \"R\", of = [\"coupler\", \"rocker\"] }},\n{{ name = \"D\", type = \"R\", of = [\"rocker\", \"frame\"] }},\n\
+             {joints}]\n[mechanism.bodies]\nframe = {{ A = [0, 0], D = [7, 1], E = [2, 5] }}\ncrank = {{ A = [0, 0], B = [3, 0] }}\n\
+             coupler = {{ B = [0, 0], C = [6, 0], P = [2, 3] }}\nrocker = {{ C = [0, 0], D = [5, 0] }}\n{bodies}\n\
+             [[input]]\njoint = \"A\"\ntan_half = \"1/3\"\n"
+        ))
+    };
+    let plain = curve(&four_bar("", ""), "coupler.P");
+    assert_eq!((plain.degree(), plain.compared), (6, None));
+    for ratio in ["2", "-1/2"] {
+        let joints = format!(
+            "{{ name = \"E\", type = \"R\", of = [\"frame\", \"wheel\"] }},\n\
+             {{ name = \"G\", type = \"gear\", of = [\"crank\", \"wheel\"], carrier = \"frame\", ratio = \"{ratio}\" }},\n"
+        );
+        let found = curve(&four_bar(&joints, "wheel = { E = [0, 0] }"), "coupler.P");
+        assert_eq!(found.compared, Some(20), "{ratio}");
+        let negative = plain.polynomial.scale(&Int::from(Integer::from(-1)));
+        assert!(found.polynomial == plain.polynomial || found.polynomial == negative, "{ratio}");
+    }
 }
 
 /// A wheel on an arm, driven by the sun, drives a second wheel of the size of the sun: that one only moves along with the arm.

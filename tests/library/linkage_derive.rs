@@ -31,7 +31,7 @@ fn curve(file: &LinkageFile, of: &str) -> Result<Curve, Error> {
     let (body, point) = of.split_once('.').unwrap();
     let body = file.linkage.bodies.iter().position(|own| own.name == body).unwrap();
     let place = file.linkage.bodies[body].point(point).unwrap().clone();
-    trace(&file.linkage, &file.cases[0].given, body, &place)
+    trace(&file.linkage, &file.cases[0].given, body, &place, &Watch::none())
 }
 
 fn derived(file: &LinkageFile) -> LinkageDerivation {
@@ -393,7 +393,7 @@ fn the_curve_of_a_centre_of_mass_holds_its_places() {
         })
         .collect();
     assert_eq!(masses.len(), 3);
-    let found = trace_mass(&file.linkage, &file.cases[0].given, &masses).unwrap();
+    let found = trace_mass(&file.linkage, &file.cases[0].given, &masses, &Watch::none()).unwrap();
     assert_eq!(found.degree(), 6);
     let polynomial = found.polynomial.map(|c| Some(c.to_f64())).unwrap();
     let size = polynomial.coefficients().iter().fold(0.0_f64, |most, c| most.max(c.abs()));

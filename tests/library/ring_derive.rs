@@ -1,10 +1,10 @@
 //! Closure polynomials of linkages in space and on the sphere have the assemblies that are listed for roots.
 #![allow(clippy::unwrap_used)]
 
-use looproot::internal::catalogue::{Any, Options, SpaceFile, builtin_any};
+use looproot::internal::catalogue::{Any, Format, Options, SpaceFile, SphereFile, any_from_text, builtin_any};
 use looproot::internal::derivation::{
-    RingPolynomial, Unknown, Watch, derive_in_space, derive_in_space_with_symbols, derive_on_sphere,
-    derive_on_sphere_with_symbols, transfer,
+    RingCurve, RingPolynomial, SphereTrace, Unknown, Watch, derive_in_space, derive_in_space_with_symbols,
+    derive_on_sphere, derive_on_sphere_with_symbols, trace_in_space, trace_on_sphere, transfer,
 };
 use looproot::internal::linkage::{space, sphere};
 use looproot_algebra::int::Int;
@@ -182,4 +182,160 @@ fn the_input_of_a_spherical_four_bar_as_symbol_gives_its_transfer_function() {
         (vec![power(1), power(0)], c.clone())
     });
     assert_eq!(found.polynomial, Polynomial::from_terms(swapped));
+}
+
+fn on_sphere(name: &str) -> Box<SphereFile> {
+    match builtin_any(&format!("linkage/{name}"), &Options::default()).unwrap() {
+        Any::Sphere(file) => file,
+        _ => panic!("{name}: a linkage on the sphere"),
+    }
+}
+
+fn traced_on_sphere(file: &SphereFile, of: &str) -> SphereTrace {
+    let (body, _, place) = file.point(of).unwrap();
+    trace_on_sphere(&file.linkage, &file.cases[0].given, body, &place, &Watch::none()).unwrap()
+}
+
+fn traced_in_space(file: &SpaceFile, of: &str) -> RingCurve {
+    let (body, _, place) = file.point(of).unwrap();
+    trace_in_space(&file.linkage, &file.cases[0].given, body, &place, &Watch::none()).unwrap()
+}
+
+/// The size of a polynomial at a place, which may be complex, relative to its terms.
+fn size_at(polynomial: &Polynomial<Int>, at: &[Complex<f64>; 3]) -> f64 {
+    let (mut sum, mut size) = (Complex::from(0.0), 0.0);
+    for (exponents, c) in polynomial.terms() {
+        let powers = at.iter().zip(&exponents).map(|(x, e)| x.powu(*e));
+        let term = powers.fold(Complex::from(c.to_integer().to_f64()), |product, power| product * power);
+        (sum, size) = (sum + term, size + term.norm());
+    }
+    sum.norm() / size
+}
+
+fn floats(place: &[Rational; 3]) -> [f64; 3] {
+    place.each_ref().map(Rational::to_f64)
+}
+
+/// Two bodies with one point have one curve: that of the coupler is derived by Cramer's rule, that of the other body from sections. Their
+/// polynomials differ by a multiple of the sphere.
+#[test]
+fn the_curve_of_a_coupler_on_the_sphere_is_that_of_its_sections() {
+    let file = on_sphere("spherical_stephenson");
+    let (SphereTrace::Coupler(coupler), SphereTrace::Sections(other)) =
+        (traced_on_sphere(&file, "k.E"), traced_on_sphere(&file, "m.E"))
+    else {
+        panic!("a coupler and another body")
+    };
+    assert_eq!((other.square.as_ref(), other.compared), (Some(&coupler.square), 20));
+    // The sixth link holds the point on a circle, the section of the curve with a plane.
+    let answer = sphere::solve(&file.linkage, &file.cases[0].given, true).unwrap();
+    assert_eq!(usize::try_from(coupler.degree()).unwrap(), answer.verdict.complex);
+    let own = &other.relations[0].polynomial;
+    assert!(own.degree(2) <= 1);
+    // On the sphere they have one ratio: polynomials of degree 4 have 25 dimensions there, and are compared at 49 points.
+    assert_eq!(coupler.square, 1);
+    let values = (1..8).flat_map(|u| (1..8).map(move |v| (Rational::from((u, 3)), Rational::from((-v, 2)))));
+    let pairs: Vec<[Rational; 2]> = values
+        .map(|(u, v)| {
+            let squares = Rational::from(&u * &u) + Rational::from(&v * &v);
+            let below = Rational::from(&squares + 1);
+            let at = [u * 2 / &below, v * 2 / &below, (1 - squares) / below];
+            [own, &coupler.polynomial].map(|p| p.map(|c| Some(Rational::from(c.to_integer()))).unwrap().evaluate(&at))
+        })
+        .collect();
+    let [x, y] = &pairs[0];
+    assert!(*x != 0 && *y != 0);
+    assert!(pairs.iter().all(|[p, q]| Rational::from(p * y) == Rational::from(q * x)));
+}
+
+/// The curve vanishes at the place of the point in all assemblies, complex ones too, at other values of the input.
+#[test]
+fn curves_on_the_sphere_pass_all_assemblies() {
+    let mut file = on_sphere("spherical_3rrr");
+    let SphereTrace::Sections(found) = traced_on_sphere(&file, "plate.B1") else { panic!("no coupler of a four-bar") };
+    let own = &found.relations[0];
+    // The leg that moves holds the point on a circle, the section of the curve with a plane.
+    assert_eq!(2 * own.degree(), 8);
+    let (body, _, place) = file.point("plate.B1").unwrap();
+    let place = floats(&place);
+    for value in ["A1 = 20 deg", "A1 = -75 deg", "A1 = 2.5"] {
+        file.cases[0] = file.case_with(value).unwrap();
+        let answer = sphere::solve(&file.linkage, &file.cases[0].given, false).unwrap();
+        assert_eq!(answer.verdict.complex, 8);
+        for mode in &answer.modes {
+            let at = mode.bodies[body].each_ref().map(|row| row.iter().zip(place).map(|(z, x)| z * x).sum());
+            let off = size_at(&own.polynomial, &at);
+            assert!(off < 1e-8, "{value}: {off}");
+        }
+    }
+    let elsewhere = [0.6, 0.0, 0.8].map(Complex::from);
+    assert!(size_at(&own.polynomial, &elsewhere) > 1e-6);
+}
+
+/// A point that a rod keeps on a sphere and two axes on a torus: outside of the absolute conic, which is double on the torus, they meet in a
+/// curve of degree 4.
+const TWO_AXES: &str = r#"
+[mechanism]
+kind = "linkage"
+space = "space"
+ground = "base"
+joints = [
+    { name = "A", type = "R", of = ["base", "crank"], axis = [0, "3/5", "4/5"] },
+    { name = "C", type = "R", of = ["crank", "coupler"], axis = [0, 1, 0] },
+    { name = "rod", type = "SS", of = ["base", "coupler"], at = ["E", "F"], length = 7 },
+]
+[mechanism.bodies]
+base = { A = [0, 0, 0], E = [6, 1, 2] }
+crank = { A = [0, 0, 0], C = [3, 0, 1] }
+coupler = { C = [0, 0, 0], F = [4, 1, -2], P = [2, 2, 1] }
+[[input]]
+given = { A = { tan_half = "1/3" } }
+"#;
+
+/// The projections of a curve in space vanish at the place of the point in all assemblies at other values of the input.
+#[test]
+fn curves_in_space_pass_all_assemblies() {
+    let read = || match any_from_text(TWO_AXES, "test.toml", Format::Toml, &Options::default()).unwrap() {
+        Any::Space(file) => file,
+        _ => panic!("a linkage in space"),
+    };
+    let values = ["A = 20 deg", "A = -75 deg", "A = 2.5"];
+    let delta = ["A1 = 10 deg", "A1 = 25 deg", "A1 = -1/3"];
+    let track = ["S0 = 20 deg", "S0 = 1", "S0 = -1/3"];
+    for (mut file, of, degrees, values) in [
+        (read(), "coupler.F", [4, 4, 4], values),
+        (read(), "coupler.P", [8, 8, 8], values),
+        (in_space("delta"), "plate.B1", [2, 2, 2], delta),
+        (in_space("ball_in_track"), "near.ball", [2, 3, 3], track),
+    ] {
+        let found = traced_in_space(&file, of);
+        assert_eq!(found.square, None);
+        let own: Vec<u64> = found.relations.iter().map(|one| one.degree()).collect();
+        assert_eq!(own, degrees, "{of}");
+        let (body, _, place) = file.point(of).unwrap();
+        let place = floats(&place).map(Complex::from);
+        for value in values {
+            file.cases[0] = file.case_with(value).unwrap();
+            let answer = space::solve(&file.linkage, &file.cases[0].given, false).unwrap();
+            assert!(!answer.modes.is_empty(), "{of} at {value}");
+            for mode in &answer.modes {
+                let at = mode.bodies[body].apply(&place);
+                for relation in &found.relations {
+                    let off = size_at(&relation.polynomial, &at);
+                    assert!(off < 1e-8, "{of} at {value}: {off}");
+                }
+            }
+        }
+        let elsewhere = [0.6, 1.3, 0.8].map(Complex::from);
+        assert!(found.relations.iter().all(|one| size_at(&one.polynomial, &elsewhere) > 1e-6), "{of}");
+    }
+}
+
+/// A point of the ground rests, and has no curve.
+#[test]
+fn points_that_rest_have_no_curve() {
+    let file = in_space("delta");
+    let (body, _, place) = file.point("base.A1").unwrap();
+    let refused = trace_in_space(&file.linkage, &file.cases[0].given, body, &place, &Watch::none()).unwrap_err();
+    assert!(refused.to_string().contains("found a point that rests"), "{refused}");
 }

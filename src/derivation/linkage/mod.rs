@@ -4,6 +4,7 @@ mod closure;
 mod cosines;
 mod four_bar;
 mod geared;
+mod geared_curve;
 mod inputs;
 mod places;
 mod symbolic;

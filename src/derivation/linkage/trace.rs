@@ -4,13 +4,15 @@
 //! its determinant vanishes at every position of the point. \[Wampler2001\]
 
 use super::closure::glued_state;
+use super::geared_curve::geared_curve;
 use super::without_circles;
 use crate::algebra::int::Int;
 use crate::algebra::modular::determinant;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::{Domain, Ring};
+use crate::derivation::interpolation::Watch;
 use crate::error::{Error, Result};
-use crate::kinematics::linkage::{Gaussian, Given, Linkage};
+use crate::kinematics::linkage::{Gaussian, Given, Linkage, LinkageJoint};
 use crate::linkage::assembly::glued;
 use crate::linkage::equations::{Closure, Equations};
 use crate::linkage::groups::{Group, Merged, groups};
@@ -34,10 +36,13 @@ pub struct Curve {
     /// Points of the ground whose isotropic lines were divided out of the determinant: the squared distance from such a
     /// point, and its multiplicity. There a rotation is zero or infinite.
     pub removed: Vec<(Polynomial<Int>, usize)>,
-    /// Number of rows of its matrix.
+    /// Number of rows of its matrix, or with gears of that of the multiplication in the coordinate ring of a section with a line.
     pub rows: usize,
     /// Degree and multiplicity of the square-free factors of the determinant.
     pub factors: Vec<(u64, usize)>,
+    /// With gears the number of lines, drawn at random, with which it has the sections of the linkage: it is interpolated and has no proof.
+    /// `None` where it is a determinant.
+    pub compared: Option<usize>,
 }
 
 impl Curve {
@@ -49,11 +54,14 @@ impl Curve {
 }
 
 /// Returns the curve of a point of a body in coordinates of the ground. In a linkage of several degrees of freedom all
-/// given values but the first are held.
+/// given values but the first are held. With gears it is interpolated, under the eyes of `watch`.
 ///
 /// # Errors
 /// For a point that does not move on a curve, and for curves that are not implemented.
-pub fn trace(linkage: &Linkage, given: &[Given], body: usize, point: &Gaussian) -> Result<Curve> {
+pub fn trace(linkage: &Linkage, given: &[Given], body: usize, point: &Gaussian, watch: &Watch<'_>) -> Result<Curve> {
+    if linkage.joints.iter().any(LinkageJoint::is_gear) {
+        return geared_curve(linkage, given, &[(body, point.clone(), Rational::from(1))], watch);
+    }
     let group = mover(linkage, given, body)?;
     let held = held(linkage, given)?;
     let (mut merged, _) = glued(linkage, held)?;
@@ -72,13 +80,21 @@ pub(super) fn mover(linkage: &Linkage, given: &[Given], body: usize) -> Result<G
 ///
 /// # Errors
 /// As [`trace`], and if the sum of the masses is 0.
-pub fn trace_mass(linkage: &Linkage, given: &[Given], masses: &[(usize, Gaussian, Rational)]) -> Result<Curve> {
+pub fn trace_mass(
+    linkage: &Linkage,
+    given: &[Given],
+    masses: &[(usize, Gaussian, Rational)],
+    watch: &Watch<'_>,
+) -> Result<Curve> {
     let total: Rational = masses.iter().map(|(_, _, mass)| mass).sum();
     if total == 0 {
         return Err(Error::Invalid("found no mass, expected [mechanism.mass] with the mass of a body".to_owned()));
     }
     let shares: Vec<(usize, Gaussian, Rational)> =
         masses.iter().map(|(body, centre, mass)| (*body, centre.clone(), Rational::from(mass / &total))).collect();
+    if linkage.joints.iter().any(LinkageJoint::is_gear) {
+        return geared_curve(linkage, given, &shares, watch);
+    }
     let held = held(linkage, given)?;
     let (mut merged, joints) = glued(linkage, held)?;
     let group = group_of(linkage, joints.iter().map(|(joint, _)| *joint).collect(), &mut merged);
@@ -94,7 +110,7 @@ pub(super) fn held<'g>(linkage: &Linkage, given: &'g [Given]) -> Result<&'g [Giv
     let links: Vec<(usize, [usize; 2])> = linkage.joints.iter().enumerate().map(|(k, joint)| (k, joint.of)).collect();
     if let Some(gear) = linkage.joints.iter().find(|joint| joint.is_gear()) {
         return Err(Error::Unsupported(format!(
-            "curves of linkages with gears, such as {}, are not derived",
+            "the curve of a point of a linkage with gears, such as {}, is derived without symbols only",
             gear.name
         )));
     }
@@ -113,7 +129,7 @@ pub(super) fn held<'g>(linkage: &Linkage, given: &'g [Given]) -> Result<&'g [Giv
 }
 
 /// Returns the cycles of a group and one more, for a weighted mean of points of bodies.
-fn mean(
+pub(super) fn mean(
     closure: &Closure,
     state: &State,
     base: usize,
@@ -172,10 +188,15 @@ fn curve(
     let polynomial =
         polynomial.ok_or_else(|| unsupported("is not the zero set of this determinant, which vanishes"))?;
     let (polynomial, removed) = without_isotropic_lines(polynomial, linkage, &group.joints);
-    let factors = polynomial.square_free_decomposition();
-    let factors = factors.iter().map(|(factor, k)| (factor.total_degree().unwrap_or(0), *k)).collect();
+    let factors = factors_of(&polynomial);
     let bodies = (0..linkage.bodies.len()).filter(|body| group.clusters.contains(&merged.root(*body))).collect();
-    Ok(Curve { bodies, polynomial: polynomial.square_free_part(), removed, rows, factors })
+    Ok(Curve { bodies, polynomial: polynomial.square_free_part(), removed, rows, factors, compared: None })
+}
+
+/// Returns degree and multiplicity of the square-free factors of a polynomial.
+pub(super) fn factors_of(polynomial: &Polynomial<Int>) -> Vec<(u64, usize)> {
+    let factors = polynomial.square_free_decomposition();
+    factors.iter().map(|(factor, k)| (factor.total_degree().unwrap_or(0), *k)).collect()
 }
 
 /// Divides out the squares of the distances from the joints of the ground. Such a factor vanishes on two isotropic lines,

@@ -154,7 +154,7 @@ impl Curves<'_> {
             symbol.put(&mut linkage, value);
         }
         let point = linkage.bodies[self.body].points[self.point].1.clone();
-        Some(trace(&linkage, self.given, self.body, &point).ok()?.polynomial)
+        Some(trace(&linkage, self.given, self.body, &point, &Watch::none()).ok()?.polynomial)
     }
 
     /// The exponents of x and y of all terms.
@@ -222,8 +222,8 @@ pub fn trace_with_symbols(
     watch: &Watch<'_>,
 ) -> Result<CurveSymbolic> {
     let place: Gaussian = linkage.bodies[body].points[point].1.clone();
-    let curve = trace(linkage, given, body, &place)?;
     let group = mover(linkage, given, body)?;
+    let curve = trace(linkage, given, body, &place, watch)?;
     let all = Coordinate::with_point(linkage, &group.joints, Some((body, point)))?;
     let (symbols, numbers) = chosen(linkage, all, wanted, MOST_SYMBOLS)?;
     let points = Places { linkage, symbols: &symbols };

@@ -124,12 +124,21 @@ impl System {
     /// # Errors
     /// For inputs that leave freedoms by count or hold what others hold, and for more unknowns than a basis is made of.
     pub fn of(linkage: &SpaceLinkage, given: &[SpaceGiven], within: &[usize]) -> Result<Self> {
+        Self::with_freedoms(linkage, given, within, 0)
+    }
+
+    /// Writes down the equations where by count the inputs leave at most so many freedoms.
+    ///
+    /// # Errors
+    /// As [`Self::of`], for inputs that leave more.
+    pub fn with_freedoms(linkage: &SpaceLinkage, given: &[SpaceGiven], within: &[usize], left: i64) -> Result<Self> {
         let clusters = clusters(linkage, given, within)?;
         let free = freedoms(linkage, given, &clusters);
-        if free > 0 {
+        if free > left {
             let message = format!(
-                "found {} given, which leaves {free} by count; expected as many inputs as the linkage has freedoms",
-                if given.len() == 1 { "1 input".to_owned() } else { format!("{} inputs", given.len()) }
+                "found {} given, which leaves {free} by count; expected as many inputs as the linkage has freedoms{}",
+                if given.len() == 1 { "1 input".to_owned() } else { format!("{} inputs", given.len()) },
+                if left > 0 { ", the first of which moves" } else { "" }
             );
             return Err(Error::Invalid(message));
         }

@@ -103,7 +103,7 @@ impl System {
     /// For inputs that leave freedoms or hold what others hold, for bodies whose axes are all parallel, and for more unknowns
     /// than a basis is made of.
     pub fn of(linkage: &SphereLinkage, given: &[SphereGiven]) -> Result<Self> {
-        Self::with_rest(linkage, given, linkage.ground)
+        Self::with_rest(linkage, given, linkage.ground, 0)
     }
 
     /// Writes down the equations in the axes of the body in which they have the fewest unknowns and the lowest degrees.
@@ -111,9 +111,17 @@ impl System {
     /// # Errors
     /// As [`Self::of`].
     pub fn least(linkage: &SphereLinkage, given: &[SphereGiven]) -> Result<Self> {
-        let in_ground = Self::of(linkage, given);
+        Self::with_freedoms(linkage, given, 0)
+    }
+
+    /// Writes down the equations as [`Self::least`], where by count the inputs leave at most so many freedoms.
+    ///
+    /// # Errors
+    /// As [`Self::of`], for inputs that leave more.
+    pub fn with_freedoms(linkage: &SphereLinkage, given: &[SphereGiven], left: usize) -> Result<Self> {
+        let in_ground = Self::with_rest(linkage, given, linkage.ground, left);
         let others = (0..linkage.bodies.len()).filter(|body| *body != linkage.ground);
-        let others = others.filter_map(|rest| Self::with_rest(linkage, given, rest).ok());
+        let others = others.filter_map(|rest| Self::with_rest(linkage, given, rest, left).ok());
         let weight = |system: &Self| (system.unknowns, system.equations.iter().map(Equation::degree).sum::<usize>());
         match (others.min_by_key(weight), in_ground) {
             (Some(other), Ok(ground)) if weight(&other) < weight(&ground) => Ok(other),
@@ -122,7 +130,7 @@ impl System {
         }
     }
 
-    fn with_rest(linkage: &SphereLinkage, given: &[SphereGiven], rest: usize) -> Result<Self> {
+    fn with_rest(linkage: &SphereLinkage, given: &[SphereGiven], rest: usize, left: usize) -> Result<Self> {
         let mut clusters = clusters(linkage, given, rest)?;
         let mut merged = Merged::new(linkage.bodies.len());
         for cluster in &clusters {
@@ -133,10 +141,11 @@ impl System {
         let links: Vec<(usize, [usize; 2])> =
             linkage.joints.iter().enumerate().map(|(k, joint)| (k, joint.of)).collect();
         let freedoms = groups(linkage.bodies.len(), &links, merged).freedoms;
-        if freedoms > 0 {
+        if freedoms > left {
             let message = format!(
-                "found {} given, which leaves {freedoms} by count; expected as many inputs as the linkage has freedoms",
-                if given.len() == 1 { "1 input".to_owned() } else { format!("{} inputs", given.len()) }
+                "found {} given, which leaves {freedoms} by count; expected as many inputs as the linkage has freedoms{}",
+                if given.len() == 1 { "1 input".to_owned() } else { format!("{} inputs", given.len()) },
+                if left > 0 { ", the first of which moves" } else { "" }
             );
             return Err(Error::Invalid(message));
         }

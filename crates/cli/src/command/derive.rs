@@ -13,14 +13,14 @@ use looproot::internal::catalogue::entry::{Design, Entry};
 use looproot::internal::catalogue::{Any, Chains, Options, SpaceFile, load_solvable};
 use looproot::internal::derivation::{
     Derivation, RingDerivation, RingSymbolic, Way, derive_by, derive_in_space, derive_in_space_with_symbols,
-    derive_with_symbols, surface,
+    derive_with_symbols, surface, trace_in_space,
 };
 use looproot::internal::error::Error;
 use looproot::internal::linkage::space;
 use looproot::internal::report::derivation::{json, paper, system, text, verdict};
 use looproot::internal::report::document::complete;
 use looproot::internal::report::json::kind;
-use looproot::internal::report::{self, ring_derivation as ring, surface as surfaces, symbolic, ways};
+use looproot::internal::report::{self, ring_curve, ring_derivation as ring, surface as surfaces, symbolic, ways};
 use looproot::internal::sweep::{EntryCase, SpaceCase, derive_any};
 use looproot_algebra::number::{Number, Quantity};
 use rug::Rational;
@@ -178,11 +178,26 @@ fn in_space(options: &DeriveOptions, mechanism: &str, file: &SpaceFile) -> Resul
         return discriminant::run(options, mechanism, &asked, names);
     }
     super::linkage_derive::refuse(options)?;
-    if options.trace.is_some() {
-        let message = "found --trace for a linkage in space, whose curves are not derived yet";
-        return Err(Error::Unsupported(message.to_owned()).into());
-    }
     let named = ring::Named::in_space(file, index + 1);
+    if let Some(asked) = &options.trace {
+        if options.symbolic.is_some() {
+            let message = "found --symbolic with --trace of a linkage in space, whose curves have no symbols yet";
+            return Err(Error::Unsupported(message.to_owned()).into());
+        }
+        let (body, point, at) = file.point(asked)?;
+        let given = &file.cases[index].given;
+        let derived = symbols::watched(options, |watch| trace_in_space(&file.linkage, given, body, &at, watch));
+        let Some(curve) = derived.map_err(place)? else { return Ok(Exit::Interrupted) };
+        let written = if options.json {
+            format!("{}\n", ring_curve::json(&named, (&file.linkage.bodies[body].name, point), &curve))
+        } else if options.quiet {
+            ring_curve::verdict(asked, &curve) + "\n"
+        } else {
+            ring_curve::text(&named, asked, &curve)
+        };
+        Output::write(&options.output, mechanism, &written)?;
+        return Ok(Exit::NotProved);
+    }
     if let Some(list) = &options.symbolic {
         let names = symbols::names(list);
         let derived = symbols::watched(options, |watch| derive_in_space_with_symbols(file, index, &names, watch));

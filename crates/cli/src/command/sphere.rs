@@ -11,7 +11,7 @@ use super::sweep::{judged, range};
 use super::symbols;
 use looproot::internal::catalogue::SphereFile;
 use looproot::internal::derivation::{
-    derive_on_sphere, derive_on_sphere_with_symbols, sphere_trace, sphere_with_symbols, transfer,
+    SphereTrace, derive_on_sphere, derive_on_sphere_with_symbols, sphere_with_symbols, trace_on_sphere, transfer,
 };
 use looproot::internal::error::Error;
 use looproot::internal::kinematics::closed_loop::Variable;
@@ -122,15 +122,19 @@ pub fn derive(options: &DeriveOptions, mechanism: &str, file: &SphereFile) -> Re
     }
     let (written, exit) = if let Some(asked) = &options.trace {
         let (body, point, place) = file.point(asked)?;
-        let curve = sphere_trace(&file.linkage, body, &place).map_err(in_place)?;
+        let derived =
+            symbols::watched(options, |watch| trace_on_sphere(&file.linkage, &case.given, body, &place, watch));
+        let Some(found) = derived.map_err(in_place)? else { return Ok(Exit::Interrupted) };
         let written = if options.json {
-            format!("{}\n", report::curve_json(file, index + 1, &file.linkage.bodies[body].name, point, &curve))
+            let name = (file.linkage.bodies[body].name.as_str(), point);
+            format!("{}\n", report::trace_json(file, index + 1, name, &found))
         } else if options.quiet {
-            report::curve_verdict(asked, &curve) + "\n"
+            report::trace_verdict(asked, &found) + "\n"
         } else {
-            report::curve_text(file, asked, &curve)
+            report::trace_text(file, index + 1, asked, &found)
         };
-        (written, None)
+        // Comparison at values drawn at random is no proof.
+        (written, matches!(found, SphereTrace::Sections(_)).then_some(Exit::NotProved))
     } else {
         relation(options, file, index, &names).map_err(in_place)?
     };
