@@ -6,6 +6,7 @@ use super::by_ring::{
 use super::coordinate_ring::{CoordinateRing, Solutions};
 use super::equation::primitive;
 use super::interpolation::{COMPARED, Family, Source, Values, Watch};
+use super::sphere::Side;
 use crate::algebra::int::Int;
 use crate::algebra::number::{Angle, HalfTangent, Number};
 use crate::algebra::polynomial::Polynomial;
@@ -15,6 +16,7 @@ use crate::catalogue::{SpaceFile, SphereFile, sphere::turned};
 use crate::error::{Error, Result};
 use crate::kinematics::motion::Vector;
 use crate::kinematics::space::{Known, SpacePair};
+use crate::kinematics::sphere::{SphereGiven, SphereLinkage};
 use crate::linkage::space::{bodies, clusters, groups};
 use rug::{Integer, Rational};
 
@@ -30,6 +32,9 @@ pub struct RingSymbolic {
     pub unknown: Unknown,
     /// The names of the symbols, the variables from 1, as they were asked for: `crank.B.x`, `rod.length`, or a given joint.
     pub symbols: Vec<String>,
+    /// For every symbol that is the tangent of half a side of a body: the square of the number over which it is, 1 or the sine of the side
+    /// in the file where that is irrational.
+    pub sides: Vec<Option<Rational>>,
     /// The polynomial.
     pub polynomial: Polynomial<Int>,
     /// Number of other values, drawn at random, at which it equals the polynomial that is derived from numbers.
@@ -113,7 +118,8 @@ fn interpolated(
         Polynomial::from_terms(terms.map(|(power, c)| (vec![exponent(power)], Rational::from(c))))
     })?;
     let polynomial = found.primitive().0;
-    Ok(RingSymbolic { unknown, symbols: symbols.to_vec(), polynomial, compared: COMPARED })
+    let (symbols, sides) = (symbols.to_vec(), vec![None; symbols.len()]);
+    Ok(RingSymbolic { unknown, symbols, sides, polynomial, compared: COMPARED })
 }
 
 /// Checks the names of symbols.
@@ -244,11 +250,46 @@ pub fn derive_in_space_with_symbols(
     interpolated(&part, unknown, names, watch)
 }
 
-/// Derives the closure polynomial of a linkage on the sphere with half-angle tangents of given joints as symbols, compared at values
-/// drawn at random.
+/// A number of a linkage on the sphere that is a symbol.
+enum SphereParameter {
+    /// The given angle of a joint, by its place in the list.
+    Input(usize),
+    /// A side of a body.
+    Side(Side),
+}
+
+const ON_SPHERE: &str = "--symbolic=NAMES of given joints, and of sides of bodies as crank.A.B from the point A to the point B; or of sides as \
+                         --symbolic alone names them";
+
+fn sphere_parameter(linkage: &SphereLinkage, given: &[SphereGiven], name: &str) -> Result<SphereParameter> {
+    let none = || unknown_symbol(name, ON_SPHERE);
+    match name.split('.').collect::<Vec<&str>>()[..] {
+        [own] => {
+            let is_named = |joint: usize| linkage.joints[joint].name == *own;
+            let place = given.iter().position(|one| one.joint.is_some_and(is_named));
+            place.map(SphereParameter::Input).ok_or_else(none)
+        }
+        [own, from, to] => {
+            let body = linkage.bodies.iter().position(|body| body.name == own).ok_or_else(none)?;
+            if ["x", "y", "z"].contains(&to) && linkage.bodies[body].point(to).is_none() {
+                let message = format!(
+                    "the symbol {name}: a coordinate of a direction on the sphere changes its length, which is that in the other body; \
+                     sides of bodies are symbols, as {own}.A.B from the point A to the point B"
+                );
+                return Err(Error::Unsupported(message));
+            }
+            Side::of(linkage, body, [from, to]).ok_or_else(none)?.map(SphereParameter::Side)
+        }
+        _ => Err(none()),
+    }
+}
+
+/// Derives the closure polynomial of a linkage on the sphere with half-angle tangents of given joints and of sides of bodies as symbols,
+/// compared at values drawn at random.
 ///
 /// # Errors
-/// As [`derive_on_sphere`] and [`derive_in_space_with_symbols`].
+/// As [`derive_on_sphere`] and [`derive_in_space_with_symbols`]; for sides of which the length is 0 or a half turn, or has no rational
+/// half-angle tangent over its sine.
 pub fn derive_on_sphere_with_symbols(
     file: &SphereFile,
     case: usize,
@@ -256,24 +297,43 @@ pub fn derive_on_sphere_with_symbols(
     watch: &Watch<'_>,
 ) -> Result<RingSymbolic> {
     let (linkage, given) = (&file.linkage, &file.cases[case].given);
-    let known = "--symbolic=NAMES of given joints, or of sides as --symbolic alone names them";
-    checked(names, known)?;
-    let place = |name: &String| {
-        let is_named = |joint: usize| linkage.joints[joint].name == *name;
-        given.iter().position(|one| one.joint.is_some_and(is_named)).ok_or_else(|| unknown_symbol(name, known))
+    checked(names, ON_SPHERE)?;
+    let parameters =
+        names.iter().map(|name| sphere_parameter(linkage, given, name)).collect::<Result<Vec<SphereParameter>>>()?;
+    let sides = || {
+        parameters.iter().zip(names).filter_map(|(parameter, name)| match parameter {
+            SphereParameter::Side(side) => Some((side, name)),
+            SphereParameter::Input(_) => None,
+        })
     };
-    let places = names.iter().map(place).collect::<Result<Vec<usize>>>()?;
+    for (side, name) in sides() {
+        if let Some((_, other)) = sides().find(|(other, own)| *own != name && side.moves(other)) {
+            let message = format!("the symbols {name} and {other}, of which the first moves a point of the second");
+            return Err(Error::Unsupported(message));
+        }
+    }
     let base = derive_on_sphere(linkage, given)?;
     let unknown = base.polynomials.first().map(|best| best.unknown);
     let part = |values: &[Rational]| {
-        let mut given = given.clone();
-        for (place, value) in places.iter().zip(values) {
-            let joint = &linkage.joints[given[*place].joint?];
-            let angle = Angle::from_half_tangent(HalfTangent::Finite(value.clone()));
-            let (rotation, exact) = turned(joint, &angle);
-            given[*place].rotation = Some(rotation).filter(|_| exact)?;
+        let (mut linkage, mut given) = (linkage.clone(), given.clone());
+        for (parameter, value) in parameters.iter().zip(values) {
+            match parameter {
+                SphereParameter::Input(place) => {
+                    let joint = &linkage.joints[given[*place].joint?];
+                    let angle = Angle::from_half_tangent(HalfTangent::Finite(value.clone()));
+                    let (rotation, exact) = turned(joint, &angle);
+                    given[*place].rotation = Some(rotation).filter(|_| exact)?;
+                }
+                SphereParameter::Side(side) => side.put(&mut linkage, &mut given, value)?,
+            }
         }
-        part_on_sphere(linkage, &given).ok()
+        part_on_sphere(&linkage, &given).ok()
     };
-    interpolated(&part, unknown, names, watch)
+    let mut found = interpolated(&part, unknown, names, watch)?;
+    for (own, parameter) in found.sides.iter_mut().zip(&parameters) {
+        if let SphereParameter::Side(side) = parameter {
+            *own = Some(side.over());
+        }
+    }
+    Ok(found)
 }

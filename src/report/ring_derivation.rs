@@ -7,6 +7,7 @@ use super::{space, sphere};
 use crate::catalogue::{SpaceFile, SphereFile};
 use crate::derivation::{RingDerivation, RingPolynomial, RingSymbolic, Unknown};
 use crate::linkage::space::Symbol;
+use rug::Rational;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -299,13 +300,32 @@ pub fn symbolic_verdict(named: &Named<'_>, found: &RingSymbolic) -> String {
     )
 }
 
-fn symbolic_steps(named: &Named<'_>, found: &RingSymbolic) -> [String; 2] {
-    [
+/// The name of a symbol, and of a side what the symbol is.
+fn meaning_of_side(name: &str, side: Option<&Rational>) -> String {
+    match side {
+        None => name.to_owned(),
+        Some(square) if *square == 1 => format!("{name}, the tangent of half the side"),
+        Some(square) => {
+            format!("{name}, the tangent of half the side over sqrt({square}), the sine of the side in the file")
+        }
+    }
+}
+
+fn symbolic_steps(named: &Named<'_>, found: &RingSymbolic) -> Vec<String> {
+    let mut steps = vec![
         "The closure polynomial is derived at values of the symbols, by a Gröbner basis over the rationals at each; its coefficients are \
          interpolated modulo 256 primes."
             .to_owned(),
         format!("{}.", named.meaning(found.unknown)),
-    ]
+    ];
+    if found.sides.iter().any(Option::is_some) {
+        steps.push(
+            "With a side its second point moves on the great circle through both; the directions from which angles are measured there turn \
+             along, and what else belongs to the body stays."
+                .to_owned(),
+        );
+    }
+    steps
 }
 
 /// The polynomial with symbols for a reader.
@@ -314,11 +334,13 @@ pub fn symbolic_text(named: &Named<'_>, found: &RingSymbolic) -> String {
     let mut text = format!("{}\n", named.heading);
     paragraph(&mut text, &symbolic_verdict(named, found));
     let names = variables(named, found);
-    text.push_str(
-        "\nSymbols: coordinates of points in their bodies, lengths, and given values (half-angle tangents, metres)\n",
-    );
-    for (variable, name) in names[1..].iter().zip(&found.symbols) {
-        let _ = writeln!(text, "  {variable} = {name}");
+    text.push_str(if found.sides.iter().any(Option::is_some) {
+        "\nSymbols: half-angle tangents of sides of bodies and of given joints\n"
+    } else {
+        "\nSymbols: coordinates of points in their bodies, lengths, and given values (half-angle tangents, metres)\n"
+    });
+    for ((variable, name), side) in names[1..].iter().zip(&found.symbols).zip(&found.sides) {
+        let _ = writeln!(text, "  {variable} = {}", meaning_of_side(name, side.as_ref()));
     }
     text.push_str("\nElimination\n");
     for step in symbolic_steps(named, found) {
@@ -345,6 +367,7 @@ pub fn symbolic_json(named: &Named<'_>, found: &RingSymbolic) -> Value {
         "real_roots": null,
         "proved": false,
         "symbols": found.symbols,
+        "meanings": found.symbols.iter().zip(&found.sides).map(|(name, side)| meaning_of_side(name, side.as_ref())).collect::<Value>(),
         "terms": found.polynomial.len(),
         "polynomial": { "variable": names[0], "coefficients": coefficients.collect::<Vec<String>>() },
     }))

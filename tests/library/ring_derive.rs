@@ -339,3 +339,66 @@ fn points_that_rest_have_no_curve() {
     let refused = trace_in_space(&file.linkage, &file.cases[0].given, body, &place, &Watch::none()).unwrap_err();
     assert!(refused.to_string().contains("found a point that rests"), "{refused}");
 }
+
+/// Sides of bodies are symbols: the polynomial is that of the file at the sides of the file, and that of a file with another side at this one.
+/// Both points of the first side are a quarter turn apart, so that the tangent of half of it is 1; the second side has an irrational sine s and
+/// the cosine c, so that its symbol is 1/(1 + c).
+#[test]
+fn sides_of_bodies_on_the_sphere_are_symbols() {
+    let file = on_sphere("spherical_stephenson");
+    let names = ["c.A.B", "k.B.E"].map(str::to_owned);
+    let found = derive_on_sphere_with_symbols(&file, 0, &names, &Watch::none()).unwrap();
+    assert_eq!((found.compared, found.sides[0].as_ref()), (20, Some(&Rational::from(1))));
+    let k = file.linkage.bodies.iter().find(|body| body.name == "k").unwrap();
+    let [b, e] = ["B", "E"].map(|point| k.point(point).unwrap());
+    let cosine = b.iter().zip(e).fold(Rational::new(), |sum, (x, y)| sum + Rational::from(x * y));
+    assert_eq!(found.sides[1], Some(Rational::from(1) - Rational::from(&cosine * &cosine)));
+    let side = (cosine + 1_u32).recip();
+    let own = |file: &SphereFile| {
+        let derived = derive_on_sphere(&file.linkage, &file.cases[0].given).unwrap();
+        assert_eq!(derived.polynomials[0].unknown, found.unknown);
+        derived.polynomials[0].coefficients.coefficients().to_vec()
+    };
+    assert_eq!(positive(at(&found.polynomial, &[Rational::from(1), side.clone()])), own(&file));
+    // The side with the half-angle tangent 1/2 has the cosine 3/5.
+    let text =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/equations/linkage/spherical_stephenson.toml"))
+            .unwrap();
+    let a = [-3, -18, -14].map(|x| Rational::from((x, 23)));
+    let b = [22, -6, 3].map(|x| Rational::from((x, 23)));
+    let moved: Vec<String> = (0..3)
+        .map(|k| {
+            format!(
+                "\"{}\"",
+                Rational::from(&a[k] * Rational::from((3, 5))) + Rational::from(&b[k] * Rational::from((4, 5)))
+            )
+        })
+        .collect();
+    let before = "B = [\"22/23\", \"-6/23\", \"3/23\"] }";
+    assert!(text.contains(before));
+    let (text, _) = text.split_once("[expected]").unwrap();
+    let text = text.replace(before, &format!("B = [{}] }}", moved.join(", ")));
+    let Any::Sphere(other) = any_from_text(&text, "test.toml", Format::Toml, &Options::default()).unwrap() else {
+        panic!("a linkage on the sphere")
+    };
+    assert_eq!(positive(at(&found.polynomial, &[Rational::from((1, 2)), side])), own(&other));
+}
+
+fn positive(coefficients: Vec<Integer>) -> Vec<Integer> {
+    let is_negative = coefficients.last().is_some_and(|c| *c < 0);
+    if is_negative { coefficients.into_iter().map(|c| -c).collect() } else { coefficients }
+}
+
+/// Symbols that are none on the sphere are refused with the reason.
+#[test]
+fn coordinates_of_directions_are_no_symbols() {
+    let file = on_sphere("spherical_stephenson");
+    let refused = |names: &[&str]| {
+        let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
+        derive_on_sphere_with_symbols(&file, 0, &names, &Watch::none()).unwrap_err().to_string()
+    };
+    assert!(refused(&["c.B.x"]).contains("changes its length"));
+    assert!(refused(&["c.A.A"]).contains("one or opposite"));
+    assert!(refused(&["c.A.Q"]).contains("found the symbol c.A.Q"));
+    assert!(refused(&["k.B.C", "k.C.E"]).contains("moves a point of the second"));
+}

@@ -1,10 +1,12 @@
 //! Four-bars on the sphere: transfer functions and coupler curves as polynomials.
 
 mod curve;
+mod side;
 mod symbolic;
 mod transfer;
 
 pub use curve::{SpecialPoint, SphereCurve, sides as sphere_sides, sphere_trace};
+pub(crate) use side::Side;
 pub use symbolic::{SphereEnd, SphereSymbol, SphereSymbolic, sphere_with_symbols};
 pub use transfer::{Transfer, transfer};
 

@@ -111,11 +111,12 @@ pub fn derive(options: &DeriveOptions, mechanism: &str, file: &SphereFile) -> Re
         return discriminant::run(options, mechanism, &asked, names);
     }
     let names = options.symbolic.as_deref().map(symbols::names).unwrap_or_default();
-    let is_given = |name: &String| {
+    // Given joints, and sides as crank.A.B; the transfer function has names of its own for these, without dots.
+    let is_interpolated = |name: &String| {
         let is_named = |joint: usize| file.linkage.joints[joint].name == *name;
-        case.given.iter().any(|one| one.joint.is_some_and(is_named))
+        name.contains('.') || case.given.iter().any(|one| one.joint.is_some_and(is_named))
     };
-    if names.iter().any(is_given) {
+    if names.iter().any(is_interpolated) {
         let derived = symbols::watched(options, |watch| derive_on_sphere_with_symbols(file, index, &names, watch));
         let Some(found) = derived.map_err(in_place)? else { return Ok(Exit::Interrupted) };
         return super::derive::with_symbols(options, mechanism, &ring::Named::on_sphere(file, index + 1), &found);
