@@ -376,8 +376,12 @@ fn derivation(parts: Vec<Result<Part>>) -> Result<RingDerivation> {
 /// As [`space::solve`], and where no group has a polynomial.
 pub fn derive_in_space(linkage: &SpaceLinkage, given: &[SpaceGiven]) -> Result<RingDerivation> {
     if linkage.joints.iter().all(|joint| matches!(joint.pair, SpacePair::UniversalLeg(_))) {
-        let message = "closure polynomials of plates on UPU legs are not derived: their poses are known modulo a prime and one by one";
-        return Err(Error::Unsupported(message.to_owned()));
+        let message = format!(
+            "closure polynomials of plates on UPU legs are not derived: on three general legs a plate has 84 poses, and the Gröbner basis over \
+             the rationals of a ring of this dimension takes more than the {EFFORT} products of words that are allowed; solve counts the \
+             poses modulo a prime and proves them one by one"
+        );
+        return Err(Error::Unsupported(message));
     }
     if space::is_platform(linkage, given) {
         let message = "a plate on six legs of given lengths is a platform, whose closure polynomial has other equations";

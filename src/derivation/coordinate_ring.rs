@@ -124,8 +124,8 @@ fn applied(columns: &Columns, coefficients: &[Rational]) -> Vec<Rational> {
     sum
 }
 
-/// Returns the rows of elements, given as columns, that are independent modulo the prime of this run, and hence over the rationals: their
-/// number is the rank there. `None` where a denominator is 0 modulo the prime.
+/// Returns the rows of elements, given as columns, that are independent modulo the prime of this run, and hence over the rationals, as
+/// many as the rank modulo the prime. `None` where a denominator is 0 modulo the prime.
 fn independent_rows(columns: &[Vec<Rational>]) -> Option<Vec<usize>> {
     let size = columns.first().map_or(0, Vec::len);
     let row = |i: usize| columns.iter().map(|column| Drawn::from_rational(&column[i])).collect::<Option<Vec<Drawn>>>();

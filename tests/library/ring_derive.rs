@@ -201,13 +201,15 @@ fn traced_in_space(file: &SpaceFile, of: &str) -> RingCurve {
     trace_in_space(&file.linkage, &file.cases[0].given, body, &place, &Watch::none()).unwrap()
 }
 
-/// The size of a polynomial at a place, which may be complex, relative to its terms.
+/// The size of a polynomial at a place, which may be complex, relative to its terms at one whose coordinates are 1 at least: all terms of a
+/// polynomial with a factor x vanish with it.
 fn size_at(polynomial: &Polynomial<Int>, at: &[Complex<f64>; 3]) -> f64 {
     let (mut sum, mut size) = (Complex::from(0.0), 0.0);
     for (exponents, c) in polynomial.terms() {
-        let powers = at.iter().zip(&exponents).map(|(x, e)| x.powu(*e));
-        let term = powers.fold(Complex::from(c.to_integer().to_f64()), |product, power| product * power);
-        (sum, size) = (sum + term, size + term.norm());
+        let number = c.to_integer().to_f64();
+        let factors = || at.iter().zip(&exponents);
+        sum += factors().fold(Complex::from(number), |product, (x, e)| product * x.powu(*e));
+        size += factors().fold(number.abs(), |product, (x, e)| product * x.norm().max(1.0).powi(e.cast_signed()));
     }
     sum.norm() / size
 }
