@@ -245,15 +245,6 @@ impl SpaceFile {
         }
         self.case_at(&values)
     }
-
-    /// Returns a point of a body by its name `BODY.POINT`: the number of the body, the name of the point, and its place there, metres.
-    ///
-    /// # Errors
-    /// For bodies and points that do not exist.
-    pub fn point<'a>(&self, asked: &'a str) -> Result<(usize, &'a str, Vector<Rational>)> {
-        let bodies = self.linkage.bodies.iter().map(|body| (body.name.as_str(), body.points.as_slice()));
-        point_of(bodies.collect(), asked)
-    }
 }
 
 fn angle(name: &str, value: &str, reading: &Reading, option: &str) -> Result<Angle> {

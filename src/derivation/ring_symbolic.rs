@@ -255,7 +255,7 @@ enum SphereParameter {
     /// The given angle of a joint, by its place in the list.
     Input(usize),
     /// A side of a body.
-    Side(Side),
+    Side(Box<Side>),
 }
 
 const ON_SPHERE: &str = "--symbolic=NAMES of given joints, and of sides of bodies as crank.A.B from the point A to the point B; or of sides as \
@@ -278,7 +278,7 @@ fn sphere_parameter(linkage: &SphereLinkage, given: &[SphereGiven], name: &str) 
                 );
                 return Err(Error::Unsupported(message));
             }
-            Side::of(linkage, body, [from, to]).ok_or_else(none)?.map(SphereParameter::Side)
+            Side::of(linkage, body, [from, to]).ok_or_else(none)?.map(|side| SphereParameter::Side(Box::new(side)))
         }
         _ => Err(none()),
     }

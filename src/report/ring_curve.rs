@@ -31,20 +31,17 @@ pub fn verdict(of: &str, curve: &RingCurve) -> String {
     let size = |relation: &CurveRelation| {
         format!("degree {} with {}", relation.degree(), counted(relation.polynomial.len(), "term"))
     };
-    match (&curve.square, curve.relations.first()) {
-        (Some(square), Some(relation)) => format!(
+    if let (Some(square), Some(relation)) = (&curve.square, curve.relations.first()) {
+        return format!(
             "curve of {of}: of degree {} in space, the sphere x^2 + y^2 + z^2 = {square} and a surface of {}; {}",
             degree(curve),
             size(relation),
             sections(curve.compared, "planes")
-        ),
-        _ => {
-            let each =
-                |relation: &CurveRelation| format!("in {} of {}", coordinates(relation).join(" and "), size(relation));
-            let list: Vec<String> = curve.relations.iter().map(each).collect();
-            format!("curve of {of}: relations {}; {}", list.join(", "), sections(curve.compared, "lines each"))
-        }
+        );
     }
+    let each = |relation: &CurveRelation| format!("in {} of {}", coordinates(relation).join(" and "), size(relation));
+    let list: Vec<String> = curve.relations.iter().map(each).collect();
+    format!("curve of {of}: relations {}; {}", list.join(", "), sections(curve.compared, "lines each"))
 }
 
 /// How the relations were found.
