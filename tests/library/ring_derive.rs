@@ -3,8 +3,9 @@
 
 use looproot::internal::catalogue::{Any, Format, Options, SpaceFile, SphereFile, any_from_text, builtin_any};
 use looproot::internal::derivation::{
-    RingCurve, RingPolynomial, SphereTrace, Unknown, Watch, derive_in_space, derive_in_space_with_symbols,
-    derive_on_sphere, derive_on_sphere_with_symbols, trace_in_space, trace_on_sphere, transfer,
+    CurveRelation, RingCurve, RingPolynomial, SphereTrace, Unknown, Watch, derive_in_space,
+    derive_in_space_with_symbols, derive_on_sphere, derive_on_sphere_with_symbols, trace_in_space, trace_on_sphere,
+    transfer,
 };
 use looproot::internal::linkage::{space, sphere};
 use looproot_algebra::int::Int;
@@ -312,7 +313,7 @@ fn curves_in_space_pass_all_assemblies() {
     ] {
         let found = traced_in_space(&file, of);
         assert_eq!(found.square, None);
-        let own: Vec<u64> = found.relations.iter().map(|one| one.degree()).collect();
+        let own: Vec<u64> = found.relations.iter().map(CurveRelation::degree).collect();
         assert_eq!(own, degrees, "{of}");
         let (body, _, place) = file.point(of).unwrap();
         let place = floats(&place).map(Complex::from);
@@ -368,14 +369,8 @@ fn sides_of_bodies_on_the_sphere_are_symbols() {
             .unwrap();
     let a = [-3, -18, -14].map(|x| Rational::from((x, 23)));
     let b = [22, -6, 3].map(|x| Rational::from((x, 23)));
-    let moved: Vec<String> = (0..3)
-        .map(|k| {
-            format!(
-                "\"{}\"",
-                Rational::from(&a[k] * Rational::from((3, 5))) + Rational::from(&b[k] * Rational::from((4, 5)))
-            )
-        })
-        .collect();
+    let moved: Vec<String> =
+        (0..3).map(|k| format!("\"{}\"", &a[k] * Rational::from((3, 5)) + &b[k] * Rational::from((4, 5)))).collect();
     let before = "B = [\"22/23\", \"-6/23\", \"3/23\"] }";
     assert!(text.contains(before));
     let (text, _) = text.split_once("[expected]").unwrap();
