@@ -168,11 +168,11 @@ pub fn decide(theorem: &FourBar, ansatz: &Ansatz) -> Result<Decision> {
     }
     planar(&setting, &mut families);
     neighbours(&setting, &mut families);
-    if parallel.len() >= 2 && parallel.len() < 4 {
-        let note = "neighbouring parallel links move also where the planar triangle of their axes has a side 0 and two equal ones";
-        for family in families.iter_mut().filter(|family| family.class == Class::Coincident) {
-            let more = family.note.take().map_or_else(String::new, |own| own + "; ");
-            family.note = Some(more + note);
+    if let [a, b] = parallel.as_slice() {
+        match b - a {
+            1 => parallel_folds(&setting, *a, &mut families),
+            3 => parallel_folds(&setting, *b, &mut families),
+            _ => {}
         }
     }
     let Setting { names, is_numeric, .. } = setting;
@@ -305,28 +305,102 @@ pub(super) fn folds(axes: usize) -> Vec<Vec<Poly>> {
 fn folded(odd: bool, first: bool, second: bool) -> bool {
     let v = Poly::variable;
     let x = v(Variables::X);
-    let sign = |straight: bool| Int::from_integer(if straight { -1 } else { 1 });
-    let link = |k: usize| -> (Ratio, Poly) { ((v(Variables::twist(k)), Poly::one()), v(Variables::length(k))) };
-    let behind = |k: usize, straight: bool| -> (Ratio, Poly) {
-        let ((t, _), a) = link(k);
-        let sign = sign(straight);
-        let tangent = if odd { (Poly::constant(sign.neg()), t) } else { (t.scale(&sign), Poly::one()) };
-        (tangent, a.scale(&sign))
-    };
-    let locked =
-        |straight: bool| -> Ratio { if straight { (Poly::zero(), Poly::one()) } else { (Poly::one(), Poly::zero()) } };
-    let member = |theta: Ratio, d: Poly, (alpha, a): (Ratio, Poly)| Member { theta, d, alpha, a };
     let d = v(Variables::offset(0));
-    // Joint 3 rotates back, about an axis that may have the opposite direction, possibly with an offset of pi.
-    let turns = [(x.neg(), Poly::one()), (x.clone(), Poly::one()), (Poly::one(), x.clone()), (Poly::one(), x.neg())];
-    turns.into_iter().any(|third| {
+    turns_back(&x).into_iter().any(|third| {
         closes(&[
             member((x.clone(), Poly::one()), d.clone(), link(0)),
-            member(locked(first), Poly::zero(), behind(0, first)),
+            member(locked(first), Poly::zero(), behind(0, odd, first)),
             member(third, if odd { d.clone() } else { d.neg() }, link(2)),
-            member(locked(second), Poly::zero(), behind(2, second)),
+            member(locked(second), Poly::zero(), behind(2, odd, second)),
         ])
     })
+}
+
+fn member(theta: Ratio, d: Poly, (alpha, a): (Ratio, Poly)) -> Member {
+    Member { theta, d, alpha, a }
+}
+
+/// The twist and the length of a link as symbols.
+fn link(k: usize) -> (Ratio, Poly) {
+    ((Poly::variable(Variables::twist(k)), Poly::one()), Poly::variable(Variables::length(k)))
+}
+
+/// The sign of the link behind a joint that is locked: opposite where this is straight.
+fn fold_sign(straight: bool) -> Int {
+    Int::from_integer(if straight { -1 } else { 1 })
+}
+
+/// The link that leads back along a link, behind a joint that is straight or at pi; `odd` where it leaves the axis reversed.
+fn behind(k: usize, odd: bool, straight: bool) -> (Ratio, Poly) {
+    let ((t, _), a) = link(k);
+    let sign = fold_sign(straight);
+    let tangent = if odd { (Poly::constant(sign.neg()), t) } else { (t.scale(&sign), Poly::one()) };
+    (tangent, a.scale(&sign))
+}
+
+/// The angle 0, or pi.
+fn locked(straight: bool) -> Ratio {
+    if straight { (Poly::zero(), Poly::one()) } else { (Poly::one(), Poly::zero()) }
+}
+
+/// The angles with which joint 3 rotates back, about an axis that may have the opposite direction, possibly with an offset of pi.
+fn turns_back(x: &Poly) -> [Ratio; 4] {
+    [(x.neg(), Poly::one()), (x.clone(), Poly::one()), (Poly::one(), x.clone()), (Poly::one(), x.neg())]
+}
+
+/// Returns whether a loop closes for all angles of joint 1 whose links 1 and 2 are parallel, with twists of pi where `turned`, and lead to
+/// the axis of joint 1 and back, as links 3 and 4 do; `straight` says so of the two joints between. The offsets of the three parallel axes
+/// have the sum 0.
+fn parallel_fold_closes(turned: [bool; 2], straight: [bool; 2]) -> bool {
+    let v = Poly::variable;
+    let x = v(Variables::X);
+    let a = v(Variables::length(0));
+    let odd = turned[0] != turned[1];
+    let sign = |is_turned: bool| Int::from_integer(if is_turned { -1 } else { 1 });
+    let [d1, d2] = [0, 1].map(|k| v(Variables::offset(k)));
+    // d1 + s1 d2 + s1 s2 d3 = 0, with the cosines s1 and s2 of both twists.
+    let d3 = d1.scale(&sign(!odd)).sub(&d2.scale(&sign(turned[1])));
+    turns_back(&x).into_iter().any(|third| {
+        closes(&[
+            member((x.clone(), Poly::one()), d1.clone(), (locked(!turned[0]), a.clone())),
+            member(locked(straight[0]), d2.clone(), (locked(!turned[1]), a.scale(&fold_sign(straight[0])))),
+            member(third, d3.clone(), link(2)),
+            member(locked(straight[1]), Poly::zero(), behind(2, odd, straight[1])),
+        ])
+    })
+}
+
+/// Adds loops with two neighbouring parallel links, the first of this number, whose outer axes coincide: the joint between them is locked,
+/// and so is the opposite one.
+fn parallel_folds(setting: &Setting, first: usize, families: &mut Vec<Family>) {
+    let own = |k: usize| &setting.links[(first + k) % 4];
+    let cosines = [own(0).cos.clone(), own(1).cos.clone()];
+    let turned = cosines.each_ref().map(|cos| *cos != Quotient::one());
+    let odd = turned[0] != turned[1];
+    let tangent = |link: &Link<Quotient>| Some(link.sin.mul(&Quotient::one().add(&link.cos).inverse()?));
+    let (Some(t), Some(u)) = (tangent(own(2)), tangent(own(3))) else { return };
+    let along = own(0).d.add(&cosines[0].mul(&own(1).d)).add(&cosines[0].mul(&cosines[1]).mul(&own(2).d));
+    for straight in [[false, false], [false, true], [true, false], [true, true]] {
+        if !parallel_fold_closes(turned, straight) {
+            continue;
+        }
+        let [near, far] = straight.map(|is| Quotient::from(Poly::constant(fold_sign(is))));
+        let twist = if odd { t.mul(&u).add(&far) } else { u.sub(&far.mul(&t)) };
+        let wanted = [
+            twist,
+            own(1).a.sub(&near.mul(&own(0).a)),
+            own(3).a.sub(&far.mul(&own(2).a)),
+            own(3).d.clone(),
+            along.clone(),
+        ];
+        let Some(conditions) = setting.conditions(wanted) else { continue };
+        if families.iter().any(|known| known.class == Class::Coincident && known.conditions == conditions) {
+            continue;
+        }
+        let (one, two) = (first.min((first + 2) % 4), first.max((first + 2) % 4));
+        let name = format!("axes {} and {} coincide, the other two joints locked", one + 1, two + 1);
+        families.push(Family { class: Class::Coincident, name, conditions, note: None });
+    }
 }
 
 /// Adds loops with all axes parallel.

@@ -80,7 +80,8 @@ pub(super) fn zero_twists(pair: &SpatialPair<Poly>, steps: &mut Vec<Step>) {
         text: "One twist of link k is 0 or pi (f then depends on the sum of the two neighbouring angles only; checked for link 4): the axes form \
                a spherical triangle, which is rigid, so the other joints stand still and the two parallel axes turn against one another: they \
                coincide, a_k = 0. Two neighbouring links: three parallel axes, the fourth joint stands still (its axis sees both ends of the \
-               triple in one direction), and what is left is a planar triangle: rigid unless two axes coincide. Two opposite links: the sums of \
+               triple in one direction), and what is left is a planar triangle: rigid unless two axes coincide, neighbours or the outer \
+               ones, at equal lengths of the two links, with the other two links folded. Two opposite links: the sums of \
                the angles about both directions are constant, so that the position vectors a_k u and a_(k+2) v, on circles in two planes that \
                are not parallel, have a constant sum: such circles have at most two points in common, no curve, unless both radii are \
                zero: coincident axes. Three: then the fourth too (f is 2 t2^2 times powers of 1 + x^2 and 1 + y^2; checked), all axes are \

@@ -384,7 +384,8 @@ pub fn derive_in_space(linkage: &SpaceLinkage, given: &[SpaceGiven]) -> Result<R
         return Err(Error::Unsupported(message));
     }
     if space::is_platform(linkage, given) {
-        let message = "a plate on six legs of given lengths is a platform, whose closure polynomial has other equations";
+        let message =
+            "a plate on six legs of given lengths is a platform, whose closure polynomial has other equations";
         return Err(Error::Unsupported(message.to_owned()));
     }
     let list = clusters(linkage, given, &bodies(linkage))?;

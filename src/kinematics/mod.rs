@@ -24,6 +24,7 @@ pub mod platform_limits;
 pub mod screw_system;
 pub mod screws;
 pub mod space;
+pub mod span;
 pub mod sphere;
 pub mod task;
 pub mod tolerance;

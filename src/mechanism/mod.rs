@@ -27,10 +27,10 @@ pub use family::{Family, Joints, Shape};
 pub use input_curve::{Derivatives, InputCurve};
 pub use instant::{Moving, MovingChain, relative};
 
+use crate::algebra::number::Number;
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::entry::{Case, Design, Entry};
 use crate::error::Result;
-use crate::algebra::number::Number;
 use crate::kinematics::platform::Platform;
 use crate::kinematics::platform_limits::{Part, PlatformLimits};
 use crate::kinematics::task::Demand;

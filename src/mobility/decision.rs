@@ -249,6 +249,9 @@ impl Subject<'_> {
         match search(&self.linkage, &self.spherical_joints()) {
             Outcome::Mobile(found) => Ok(self.mobile(found)),
             Outcome::Complex(found) => {
+                if let Some(reason) = self.too_wide() {
+                    return Ok(self.answer(Some(0), (Proof::Proved, Code::LinkTooLong), reason));
+                }
                 let reason = format!(
                     "complex mobility; no real configuration found: with {} held there are {} complex solutions on \
                      curves, none of them real at the values tried",

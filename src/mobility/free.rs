@@ -14,7 +14,8 @@ use crate::exact::linkage::{Axis, JointValue, Linkage};
 use crate::kinematics::chain::JointKind;
 use crate::kinematics::closed_loop::{ClosedLoop, OpenLoop, Variable};
 use crate::kinematics::freedom::Freedom;
-use crate::kinematics::motion::{Motion, Vector, dot};
+use crate::kinematics::motion::{Motion, Vector};
+use crate::kinematics::span::too_long;
 use crate::mechanism::FullMode;
 use crate::solve::newton::approach;
 use crate::verdict::{Code, Proof, Status};
@@ -34,6 +35,8 @@ const STEPS: usize = 40;
 const COMPLEX: usize = 8;
 /// Longest step, in half angles and in lengths over the mean link.
 const STEP: f64 = 0.6;
+/// Bits in which lengths of axes are computed.
+const BITS: u32 = 256;
 /// Closure residuals below this are taken for a configuration, which is then proved or not.
 const CLOSED: f64 = 1e-11;
 /// Screws are independent if what one adds to the others is more than this part of the largest.
@@ -42,10 +45,6 @@ const INDEPENDENT: f64 = 1e-4;
 const SPHERICAL: f64 = 8.0;
 /// Decimal digits of values at which joints are held.
 const DIGITS: u32 = 3;
-/// Irrational lengths are within this part of their rationals, by far.
-const ROUNDED: f64 = 1e-12;
-/// Bits in which lengths are compared.
-const BITS: u32 = 256;
 
 impl Subject<'_> {
     /// Decides the mobility of a loop of seven variables or more.
@@ -172,24 +171,13 @@ impl Subject<'_> {
     }
 
     /// Why a loop without translations cannot close: one link is longer than all others together.
-    fn too_wide(&self) -> Option<String> {
+    pub(super) fn too_wide(&self) -> Option<String> {
         if self.linkage.variables.contains(&Variable::Translation) {
             return None;
         }
-        let length = |k: usize| -> Option<Float> {
-            let motion = self.linkage.links[k].to_motion()?;
-            Some(Float::with_val(BITS, dot(&motion.translation, &motion.translation)).sqrt())
-        };
-        let lengths: Vec<Float> = (0..self.linkage.links.len()).map(length).collect::<Option<_>>()?;
-        let sum = lengths.iter().fold(Float::new(BITS), |sum, length| sum + length);
-        let longest = lengths.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
-        let rest = Float::with_val(BITS, &sum - longest.1);
-        // Numbers of the file may be rounded, and roots and sums are in the last of many bits.
-        let margin = Float::with_val(BITS, &sum * ROUNDED);
-        (Float::with_val(BITS, longest.1 - &rest) > margin).then(|| {
-            let (longest, rest) = (longest.1.to_f64(), rest.to_f64());
-            format!("no real configuration: one link spans {longest:.6}, all others together {rest:.6}")
-        })
+        let motions: Vec<Motion<Rational>> =
+            self.linkage.links.iter().map(|link| link.to_motion()).collect::<Option<_>>()?;
+        too_long(motions.iter().map(|motion| &motion.translation))
     }
 
     /// Certified configurations with one joint held, as `solve` finds them.

@@ -2,8 +2,8 @@
 
 use super::clusters::{clusters, groups};
 use super::equations::System;
-use super::six_legs::{Pose, SixLegs};
 use super::plate_pose::PlatePose;
+use super::six_legs::{Pose, SixLegs};
 use super::universal::{Count, Plate};
 use super::values::{mode, real_point};
 use crate::algebra::disc::Disc;
@@ -15,8 +15,8 @@ use crate::error::{Error, Result};
 use crate::kinematics::motion::{Motion, Vector};
 use crate::kinematics::space::{SpaceGiven, SpaceLinkage};
 use crate::linkage::points::{EFFORT, Points};
-use crate::mechanism::exact_loop::roots::Root;
 use crate::mechanism::Solution;
+use crate::mechanism::exact_loop::roots::Root;
 use crate::verdict::{Code, Proof, Status, Verdict};
 use num_complex::Complex;
 use std::time::Instant;

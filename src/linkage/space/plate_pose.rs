@@ -90,7 +90,8 @@ impl Square for Fixed<'_> {
         let inverse = self.inverse(&unknowns)?;
         for _ in 0..MOST_STEPS {
             let values = self.values(&unknowns);
-            let product = |row: &Vec<Disc>| row.iter().zip(&values).fold(Disc::zero(), |sum, (a, b)| sum.add(&a.mul(b)));
+            let product =
+                |row: &Vec<Disc>| row.iter().zip(&values).fold(Disc::zero(), |sum, (a, b)| sum.add(&a.mul(b)));
             let steps: Vec<Disc> = inverse.iter().map(product).collect();
             unknowns = unknowns.iter().zip(&steps).map(|(z, step)| centre(&z.sub(step))).collect();
             if steps.iter().all(|step| step.at_most() < SETTLED) {

@@ -14,6 +14,7 @@ use crate::catalogue::entry::Case;
 use crate::error::Result;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::closed_loop::{Layout, Variable};
+use crate::kinematics::span::too_long;
 use crate::mechanism::FullMode;
 use crate::mechanism::single_loop::{locked_value, within_limits};
 use crate::verdict::{Code, Proof, Status, Verdict};
@@ -85,6 +86,9 @@ impl Question<'_> {
             System::of_loop(&cycle.steps).and_then(|system| dimension_modulo_prime(&system, MODULAR_EFFORT));
         Ok(dimension.map(|dimension| {
             let verdict = self.moving(&cycle, dimension);
+            if verdict.code == Code::LinkTooLong {
+                return verdict;
+            }
             if dimension == 0 {
                 let of = equations(&cycle);
                 let reason = format!(
@@ -109,7 +113,7 @@ impl Question<'_> {
             "solutions form a self-motion of dimension {dimension}: that of the set of all solutions, real or complex, of {of}, \
              by a Gröbner basis over the rationals"
         );
-        Verdict {
+        let verdict = Verdict {
             status: Status::SelfMotion,
             proof: self.proof(),
             code: Code::SelfMotion,
@@ -120,6 +124,15 @@ impl Question<'_> {
             self_motion: dimension,
             certified: 0,
             reason,
+        };
+        let is_turning = cycle.steps.iter().all(|step| step.variable == Variable::Rotation);
+        let links = cycle.steps.iter().map(|step| &step.behind).chain(&cycle.before);
+        match too_long(links.map(|link| &link.translation)).filter(|_| is_turning) {
+            Some(reason) => {
+                let (status, code) = (Status::Unreachable, Code::LinkTooLong);
+                Verdict { status, code, self_motion: 0, reason, ..verdict }
+            }
+            None => verdict,
         }
     }
 

@@ -174,4 +174,3 @@ impl PoseForms for Exact {
         self.0.iter().flat_map(|leg| leg.slopes(x, y, times)).collect()
     }
 }
-
