@@ -38,6 +38,7 @@ mod robots;
 mod singular_poses;
 mod slides;
 mod space;
+mod space_sweep;
 mod sphere;
 mod sphere_proof;
 mod strategies;

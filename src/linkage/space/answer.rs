@@ -2,6 +2,7 @@
 
 use super::clusters::{clusters, groups};
 use super::equations::System;
+use super::independent::{combined, parts};
 use super::plate_pose::PlatePose;
 use super::six_legs::{Pose, SixLegs};
 use super::universal::{Count, Plate};
@@ -25,6 +26,9 @@ use std::time::Instant;
 const BITS: [u32; 4] = [320, 1280, 5120, 20_480];
 /// Largest radius, for lengths of 1, beyond which no more bits are computed.
 const WANTED: f64 = 4.0 * f64::EPSILON;
+
+/// Maximum number of assemblies that are listed: those of fourteen parts with two each.
+const MOST: usize = 1 << 14;
 
 /// What a list of all assemblies rests on.
 const EXACTLY: &str = "a Gröbner basis over the rationals";
@@ -122,7 +126,10 @@ fn answered(linkage: &SpaceLinkage, given: &[SpaceGiven], exact: bool, wanted: R
     let ((mut modes, sample, verdict), route) = match (counted_plate, SixLegs::of(linkage, given, &system)) {
         (Some((plate, count)), _) => (by_paths(linkage, given, &system, (&plate, count), exact), "paths"),
         (None, Some(legs)) => (by_legs(linkage, given, &system, &legs, (exact, wanted))?, "platform"),
-        (None, None) => (by_basis(linkage, given, &system, exact)?, "Gröbner basis"),
+        (None, None) => {
+            let by_parts = by_parts(linkage, given, &system, exact)?;
+            (by_parts.map_or_else(|| by_basis(linkage, given, &system, exact), Ok)?, "Gröbner basis")
+        }
     };
     sort(&mut modes);
     let groups = counted(linkage, given, verdict.complex, route)?;
@@ -145,6 +152,32 @@ fn by_basis(linkage: &SpaceLinkage, given: &[SpaceGiven], system: &System, exact
     }
     let verdict = verdict(EXACTLY, &modes, dimension, sample.is_some(), exact);
     Ok((modes, sample, verdict))
+}
+
+/// All combinations of the assemblies of parts that only the ground joins; `None` of a linkage of one part, and where a part moves.
+fn by_parts(linkage: &SpaceLinkage, given: &[SpaceGiven], system: &System, exact: bool) -> Result<Option<Listed>> {
+    let lists = parts(linkage, given, system);
+    if lists.len() < 2 {
+        return Ok(None);
+    }
+    let mut found = Vec::new();
+    for within in lists {
+        let system = System::of(linkage, given, &within)?;
+        let basis = Basis::of(system.unknowns, &system.equations, EFFORT).ok_or_else(too_much)?;
+        match basis.dimension() {
+            None => return Ok(Some((Vec::new(), None, verdict(EXACTLY, &[], None, false, exact)))),
+            Some(0) => found.push((within, isolated(linkage, given, &system, &basis).ok_or_else(too_much)?)),
+            Some(_) => return Ok(None),
+        }
+    }
+    let number: usize = found.iter().map(|(_, modes)| modes.len()).product();
+    if number > MOST {
+        let message = format!("{number} assemblies of parts that only the ground joins, more than are listed");
+        return Err(Error::Unsupported(message));
+    }
+    let modes = combined(linkage, given, system, &found);
+    let verdict = verdict(EXACTLY, &modes, Some(0), false, exact);
+    Ok(Some((modes, None, verdict)))
 }
 
 /// All assemblies of a plate on UPU legs, whose number is known modulo a prime.

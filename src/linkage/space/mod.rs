@@ -7,6 +7,7 @@ mod answer;
 mod clusters;
 mod conditions;
 mod equations;
+mod independent;
 mod plate_pose;
 mod rates;
 mod six_legs;
