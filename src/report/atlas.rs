@@ -13,6 +13,7 @@ use crate::derivation::{
 };
 use crate::error::{Error, Result};
 use crate::kinematics::linkage::Accuracy;
+use crate::linkage::space::platform_of;
 use crate::sweep::derive_any;
 use rug::Rational;
 use std::fmt::Write;
@@ -82,6 +83,9 @@ pub fn page(any: &Any) -> Result<Option<String>> {
             (&file.heading, file.accuracy(&file.cases[0]) != Accuracy::Exact, page)
         }
         Any::Space(file) if !file.cases.is_empty() => {
+            if let Some(platform) = platform_of(file, &file.cases[0])? {
+                return atlas(&platform);
+            }
             let found = derive_in_space(&file.linkage, &file.cases[0].given)?;
             (
                 &file.heading,
@@ -213,6 +217,9 @@ fn linked(name: &str, has_page: bool) -> String {
 /// The row of a linkage in space.
 #[must_use]
 pub fn space_row(file: &SpaceFile, name: &str, has_page: bool) -> String {
+    if let Some(Ok(Some(platform))) = file.cases.first().map(|case| platform_of(file, case)) {
+        return row(&platform, name, has_page);
+    }
     row_of(name, &file.heading.title, &linked(name, has_page), || {
         let case = file.cases.first().ok_or("no case")?;
         let found = derive_in_space(&file.linkage, &case.given).map_err(|error| reason(&error))?;
