@@ -1,4 +1,4 @@
-"""Linkages of any graph of bodies and joints, in the plane and on the sphere."""
+"""Linkages of any graph of bodies and joints, in the plane, on the sphere and in space."""
 
 from __future__ import annotations
 

@@ -58,3 +58,18 @@ def test_a_linkage_on_the_sphere() -> None:
     assert all(np.allclose(np.linalg.norm(places, axis=1), 1) for places in s.bodies.values())
     found = linkage.mobility()
     assert (found["mobility"], found["gruebler"]) == (3, 3)
+
+
+def test_a_linkage_in_space() -> None:
+    linkage = lr.load("linkage/delta")
+    assert isinstance(linkage, lr.Linkage)
+    s = linkage.solve(input={"A1": 0.3})
+    assert len(s) == 2 and s.complete and "<canvas" in s.view()
+    assert s.bodies is not None and np.allclose(s.q[:, 0], 0.3)
+    sweep = linkage.sweep("A1", 0.3, 0.6, 6, trace="plate.B1")
+    assert len(sweep.branches) == 2
+    rows = sweep.document["branches"][0]["rows"]
+    assert len(rows) == 7 and len(rows[0]["points"]["plate.B1"]) == 3
+    assert len(linkage.derive()["polynomials"][0]["coefficients"]) == 3
+    # A plate on six legs is derived as a platform.
+    assert lr.Linkage("linkage/6rus").derive()["degree"] == 36

@@ -2,13 +2,37 @@
 #![allow(clippy::unwrap_used)]
 
 use looproot::internal::assembly::{Assembly, Roots, Workspace};
-use looproot::internal::catalogue::entry::Entry;
-use looproot::internal::catalogue::{Options, load};
+use looproot::internal::catalogue::entry::{Case, Entry};
+use looproot::internal::catalogue::{Any, Format, Options, any_from_text, load};
 use looproot::internal::mechanism::Mechanism;
 use looproot::internal::sweep::derive_any;
+use looproot::internal::verdict::{Code, Proof, Status};
 
 fn entry(name: &str) -> Entry {
     load(&format!("overconstrained/{name}"), &Options::default()).unwrap()
+}
+
+/// A link that is longer than all others together keeps a loop open, of whose complex solutions there are families.
+#[test]
+fn a_link_that_is_too_long_denies_a_loop() {
+    let planar = |lengths: [&str; 4]| {
+        let joint = |a: &str| format!("{{ type = \"R\", a = \"{a}\", alpha = 0, d = 0 }}");
+        let text = format!(
+            "[mechanism]\nkind = \"loop\"\nconvention = \"dh\"\njoints = [{}]\n",
+            lengths.map(joint).join(", ")
+        );
+        let Any::Entry(entry) = any_from_text(&text, "x.toml", Format::Toml, &Options::default()).unwrap() else {
+            panic!("a loop")
+        };
+        let mechanism = Mechanism::prepare(&entry).unwrap();
+        let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
+        let verdict = mechanism.solve(&Case::free(1), Roots::All, &mut workspace, &mut assembly).unwrap().verdict;
+        (verdict.status, verdict.code, verdict.proof)
+    };
+    let denied = (Status::Unreachable, Code::LinkTooLong, Proof::Proved);
+    assert_eq!(planar(["10", "1", "2", "3"]), denied);
+    assert_eq!(planar(["1", "2", "60000001/10000000", "3"]), denied);
+    assert_eq!(planar(["1", "2", "59999999/10000000", "3"]).0, Status::SelfMotion);
 }
 
 /// The degree of the closure polynomial, and how many joints have one with the input.

@@ -151,6 +151,29 @@ fn numbers_are_decided() {
     assert_eq!(classes(&numbers([["1", "0", "0"], ["2", "1/2", "0"], ["3", "1/3", "0"], ["1", "1/5", "0"]])), []);
 }
 
+/// Three parallel axes, the outer two of which coincide where the links between them lie on each other, as the other two links do: the loop
+/// moves, whatever the lengths are, in every order of the joints. A length, a twist or an offset that is off locks it.
+#[test]
+fn folds_with_parallel_links_move() {
+    let loops = [
+        // Twists of 0 and of half a turn; the other two links fold straight or at half a turn.
+        [["2", "1/2", "0"], ["2", "1/2", "0"], ["1", "0", "0"], ["1", "0", "0"]],
+        [["2", "1/2", "0"], ["-2", "-1/2", "0"], ["1", "0", "3"], ["-1", "0", "-2"]],
+        [["3", "-2/3", "-1"], ["3", "-2/3", "0"], ["1/2", "0", "2"], ["1/2", "0", "-1"]],
+    ];
+    for joints in loops {
+        for first in 0..4 {
+            let turned: [[&str; 3]; 4] = std::array::from_fn(|k| joints[(first + k) % 4]);
+            assert_eq!(classes(&numbers(turned)), [Class::Coincident], "{turned:?}");
+        }
+        for (joint, part, value) in [(2, 0, "7/8"), (0, 1, "3/7"), (1, 2, "1/9"), (3, 2, "11/9")] {
+            let mut off = joints;
+            off[joint][part] = value;
+            assert!(numbers(off).families.is_empty(), "{off:?}");
+        }
+    }
+}
+
 #[test]
 fn the_general_loop_and_the_file_of_bennett() {
     let general = decide(theorem(), &Ansatz::general(4)).unwrap();
