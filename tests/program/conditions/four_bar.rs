@@ -156,9 +156,9 @@ fn numbers_are_decided() {
 #[test]
 fn folds_with_parallel_links_move() {
     let loops = [
-        // Twists of 0 and of half a turn; the other two links fold straight or at half a turn.
+        // Links lie on each other at half a turn, or are opposite and stretched.
         [["2", "1/2", "0"], ["2", "1/2", "0"], ["1", "0", "0"], ["1", "0", "0"]],
-        [["2", "1/2", "0"], ["-2", "-1/2", "0"], ["1", "0", "3"], ["-1", "0", "-2"]],
+        [["2", "1/2", "-1"], ["-2", "-1/2", "0"], ["1", "0", "3"], ["-1", "0", "-2"]],
         [["3", "-2/3", "-1"], ["3", "-2/3", "0"], ["1/2", "0", "2"], ["1/2", "0", "-1"]],
     ];
     for joints in loops {
