@@ -24,7 +24,12 @@ pub(crate) struct Configurations<'a> {
     /// For a loop with a spherical joint, the constant between it and the first step.
     before: Option<&'a Motion<Rational>>,
     points: &'a Points,
+    /// The two numbers of every unknown, each as a quotient of polynomials in the roots of the points.
+    values: Option<Vec<[Quotient; 2]>>,
 }
+
+/// A numerator and a denominator, which is 0 at no point.
+type Quotient = [Univariate<Rational>; 2];
 
 /// The joint values of a solution.
 #[derive(Clone, Debug)]
@@ -69,26 +74,27 @@ impl<'a> Configurations<'a> {
         before: Option<&'a Motion<Rational>>,
         points: &'a Points,
     ) -> Self {
-        Self { system, steps, before, points }
+        let pair = |[one, two]: &[Equation; 2]| Some([points.quotient(one)?, points.quotient(two)?]);
+        let values = system.unknowns.iter().map(pair).collect();
+        Self { system, steps, before, points, values }
     }
 
     /// The joint values at a point; `None` where they have no angles, or need more digits than anything.
     pub fn at(&self, point: &Point) -> Option<Configuration> {
-        let unknown = |pair: &[Equation; 2]| -> Option<[Univariate<Rational>; 2]> {
-            Some([self.points.value(point, &pair[0])?, self.points.value(point, &pair[1])?])
-        };
-        let values: Option<Vec<[Univariate<Rational>; 2]>> = self.system.unknowns.iter().map(unknown).collect();
-        let values = values?;
+        let values = self.values.as_ref()?;
         let mut lock = None;
         let mut bits = FIRST;
         while bits <= LAST {
             let root = point.root(bits)?;
-            let pairs: Vec<[Disc; 2]> =
-                values.iter().map(|pair| pair.each_ref().map(|value| root.evaluate(value.coefficients()))).collect();
-            match self.in_digits(point, &pairs, bits, &mut lock) {
-                Digits::Enough(found) if found.is_good() => return Some(*found),
-                Digits::Never => return None,
-                Digits::Enough(_) | Digits::TooFew => bits *= 2,
+            let value = |[above, below]: &Quotient| {
+                Some(root.evaluate(above.coefficients()).mul(&root.evaluate(below.coefficients()).inverse()?))
+            };
+            let pairs: Option<Vec<[Disc; 2]>> =
+                values.iter().map(|[one, two]| Some([value(one)?, value(two)?])).collect();
+            match pairs.map(|pairs| self.in_digits(point, &pairs, bits, &mut lock)) {
+                Some(Digits::Enough(found)) if found.is_good() => return Some(*found),
+                Some(Digits::Never) => return None,
+                Some(Digits::Enough(_) | Digits::TooFew) | None => bits *= 2,
             }
         }
         None
