@@ -125,7 +125,13 @@ fn answered(linkage: &SpaceLinkage, given: &[SpaceGiven], exact: bool, wanted: R
     let counted_plate = plate.and_then(|plate| plate.count().map(|count| (plate, count)));
     let ((mut modes, sample, verdict), route) = match (counted_plate, SixLegs::of(linkage, given, &system)) {
         (Some((plate, count)), _) => (by_paths(linkage, given, &system, (&plate, count), exact), "paths"),
-        (None, Some(legs)) => (by_legs(linkage, given, &system, &legs, (exact, wanted))?, "platform"),
+        (None, Some(legs)) => {
+            let found = by_legs(linkage, given, &system, &legs, (exact, wanted))?;
+            let is_open = found.2.status == Status::Incomplete || matches!(found.2.proof, Proof::Probable { .. });
+            let by_basis = || by_basis(linkage, given, &system, exact).ok();
+            let other = if is_open && legs.is_on_arms() { by_basis() } else { None };
+            other.map_or((found, "platform"), |other| (other, "Gröbner basis"))
+        }
         (None, None) => {
             let by_parts = by_parts(linkage, given, &system, exact)?;
             (by_parts.map_or_else(|| by_basis(linkage, given, &system, exact), Ok)?, "Gröbner basis")
@@ -208,8 +214,12 @@ fn by_legs(
     (exact, wanted): (bool, Roots),
 ) -> Result<Listed> {
     let Solution { mut verdict, modes, families, .. } = legs.solve()?;
-    let modes = modes.iter().filter(|pose| pose.real || wanted == Roots::All);
-    let modes = modes.filter_map(|pose| legs.mode(linkage, given, system, &Pose::of(pose))).collect();
+    let poses: Vec<_> = modes.iter().filter(|pose| pose.real || wanted == Roots::All).collect();
+    let modes: Vec<SpaceMode> =
+        poses.iter().filter_map(|pose| legs.mode(linkage, given, system, &Pose::of(pose))).collect();
+    if modes.len() < poses.len() {
+        (verdict.status, verdict.code, verdict.proof) = (Status::Incomplete, Code::TooFew, Proof::None);
+    }
     // A family of poses has the lengths of the legs, which are the values of its joints.
     let sample = families.first().and_then(|family| {
         let q: Vec<Coordinate> = family.sample.iter().map(|x| Complex::new(*x, 0.0)).collect();

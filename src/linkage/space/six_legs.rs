@@ -213,7 +213,12 @@ impl Parts<'_> {
         let [(one, first), (two, second)] = ends.as_slice() else { return None };
         let ((_, p), (_, q)) = (self.point(*one, *first)?, self.point(*two, *second)?);
         let apart: Vector<Rational> = std::array::from_fn(|k| Rational::from(&p[k] - &q[k]));
-        self.leg([self.point(*one, 1 - first)?, self.point(*two, 1 - second)?], dot(&apart, &apart))
+        let square = dot(&apart, &apart);
+        // A rod without length is one spherical joint.
+        if square == 0 {
+            return None;
+        }
+        self.leg([self.point(*one, 1 - first)?, self.point(*two, 1 - second)?], square)
     }
 
     /// A cluster between a revolute joint and a spherical one.
@@ -277,6 +282,11 @@ impl SixLegs {
         let geometry = Platform { base: points(0), plate: points(1) };
         let squares = legs.each_ref().map(|leg| Number::exact(leg.square.clone()));
         Some(Self { plate, arms, geometry, squares })
+    }
+
+    /// Whether the plate stands on three arms: a Gröbner basis of so few unknowns ends.
+    pub(super) fn is_on_arms(&self) -> bool {
+        self.arms.len() == 3
     }
 
     /// Returns a platform of which this is all, with the title and the name of a file. Its legs are in the order of the file: those
@@ -381,7 +391,8 @@ impl SixLegs {
         let clean = |c: &Complex<f64>| Some(if pose.real { Complex::new(c.re + 0.0, 0.0) } else { *c });
         let place = place.map(clean)?;
         let radius = self.radius(system, pose);
-        if let Some(exact) = self.refined(pose).filter(|exact| is_within(&place, &exact.place, radius)) {
+        let is_same = |exact: &PlatePose| exact.is_real == pose.real && is_within(&place, &exact.place, radius);
+        if let Some(exact) = self.refined(pose).filter(is_same) {
             let places = self.places(system, &exact.place)?;
             return mode(linkage, given, system, &places, exact.is_real, pose.multiplicity);
         }
@@ -394,7 +405,7 @@ impl SixLegs {
             }
         }
         let mode = finished(linkage, given, system, bodies, pose.real, pose.multiplicity, radius);
-        Some(SpaceMode { certified: pose.certified, ..mode })
+        Some(SpaceMode { certified: pose.certified && radius.is_finite(), ..mode })
     }
 }
 
