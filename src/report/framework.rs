@@ -2,6 +2,7 @@
 
 use super::document;
 use super::json::number;
+use super::mobility::of_document;
 use super::model;
 use super::number::{at_most, counted, short};
 use super::table::{Columns, paragraph};
@@ -155,6 +156,7 @@ pub fn json(file: &FrameworkFile, answer: &Mobility) -> Value {
         "mechanism": model::framework_json(file),
         "title": file.heading.title,
         "kind": "framework",
+        "verdict": of_document(&verdict(answer), most == 0),
         "mobility": if least == most { json!(least) } else { json!([least, most]) },
         "maxwell": maxwell,
         "free_vertices": vertices,

@@ -1,6 +1,7 @@
 //! Whether a linkage moves, as text and JSON.
 
 use super::document::units;
+use super::mobility::of_document;
 use super::model::any_json;
 use super::number::counted;
 use super::table::paragraph;
@@ -105,6 +106,7 @@ pub fn json(asked: &Asked) -> Value {
     let mut document = json!({
         "title": asked.heading.title,
         "kind": "linkage",
+        "verdict": of_document(&verdict(answer), answer.mobility == Some(0)),
         "mobility": answer.mobility,
         "gruebler": answer.gruebler,
         "first_order": answer.first_order,

@@ -13,6 +13,11 @@ use crate::mobility::{Configuration, Local, Mobility};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
+/// Returns a verdict as the documents say it: one that nothing moves begins with `immobile`.
+pub(super) fn of_document(verdict: &str, is_immobile: bool) -> String {
+    if is_immobile && !verdict.starts_with("immobile") { format!("immobile: {verdict}") } else { verdict.to_owned() }
+}
+
 /// `mobile: mobility 1 (Gruebler's count -2), screw rank 3, 1 branch; proof: proved`
 #[must_use]
 pub fn verdict(answer: &Mobility) -> String {
@@ -166,6 +171,7 @@ pub fn json(entry: &Entry, answer: &Mobility) -> Value {
     json!({
         "title": entry.title,
         "kind": kind(entry.kind()),
+        "verdict": of_document(&verdict(answer), answer.mobility == Some(0)),
         "mobility": answer.mobility,
         "gruebler": answer.gruebler(),
         "screw_rank": answer.screw_rank(),

@@ -224,3 +224,20 @@ fn data_of_few_digits_do_not_move_and_are_said_to_be_near_what_does() {
     assert_eq!((far.mobility, far.proof), (Some(0), Proof::RoundedData), "{}", far.reason);
     assert!(!far.reason.contains("near a mobile one"), "{}", far.reason);
 }
+
+/// The verdict of a document begins with what it decides, whatever the kind.
+#[test]
+fn documents_begin_their_verdict_with_what_is_decided() {
+    for (name, word) in [
+        ("bennett_a", "mobile: mobility 1"),
+        ("linkage/jansen", "mobile: mobility 1"),
+        ("framework/steffen", "mobile: mobility 1"),
+        ("linkage/3rpr", "mobile: mobility 3"),
+        ("framework/octahedron_control", "immobile: "),
+    ] {
+        let (_, out, error) = run(&["mobility", name, "--json"]);
+        let document: serde_json::Value = serde_json::from_str(&out).unwrap_or_else(|_| panic!("{name}: {error}"));
+        let verdict = document["verdict"].as_str().unwrap();
+        assert!(verdict.starts_with(word), "{name}: {verdict}");
+    }
+}

@@ -168,7 +168,8 @@ fn by_parts(linkage: &SpaceLinkage, given: &[SpaceGiven], system: &System, exact
     }
     let mut found = Vec::new();
     for within in lists {
-        let system = System::of(linkage, given, &within)?;
+        // A part with too few conditions and one with too many are told from each other by the whole.
+        let Ok(system) = System::of(linkage, given, &within) else { return Ok(None) };
         let basis = Basis::of(system.unknowns, &system.equations, EFFORT).ok_or_else(too_much)?;
         match basis.dimension() {
             None => return Ok(Some((Vec::new(), None, verdict(EXACTLY, &[], None, false, exact)))),
