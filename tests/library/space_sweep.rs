@@ -138,7 +138,9 @@ fn six_legs_of_any_kind_are_a_platform() {
     let answer = solve(&file.linkage, &case.given, true).unwrap();
     assert_eq!((answer.verdict.status, answer.verdict.proof), (Status::Complete, Proof::Proved));
     assert_eq!((answer.modes.len(), answer.verdict.complex), (36, 36));
-    assert!(answer.modes.iter().all(|mode| mode.certified && mode.residual < 1e-9));
+    assert!(answer.modes.iter().all(|mode| mode.certified && mode.radius < 1e-9));
+    // The length of a rod of a complex assembly is a difference of large squares.
+    assert!(answer.modes.iter().all(|mode| mode.residual < if mode.real { 1e-12 } else { 1e-7 }));
     let real = solve_real(&file.linkage, &case.given, true).unwrap();
     assert_eq!(real.modes.len(), answer.verdict.real);
     let platform = platform_of(&file, case).unwrap().unwrap();
