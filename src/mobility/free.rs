@@ -175,8 +175,10 @@ impl Subject<'_> {
         if self.linkage.variables.contains(&Variable::Translation) {
             return None;
         }
-        let motions: Vec<Motion<Rational>> =
-            self.linkage.links.iter().map(|link| link.to_motion()).collect::<Option<_>>()?;
+        let mut motions = Vec::new();
+        for link in &self.linkage.links {
+            motions.push(link.to_motion()?);
+        }
         too_long(motions.iter().map(|motion| &motion.translation))
     }
 

@@ -115,7 +115,9 @@ fn join(joint: &SpaceHinge, of: [usize; 2], size: f64, bodies: &mut [Body], conn
         Bond::Parallelogram(axes) => {
             let half = 0.5 * RODS_APART * size;
             let ends = [-half, half].map(|by| [0, 1].map(|side| moved(&joint.at[side], &axes[side], by)));
-            ends.into_iter().for_each(|at| line(ConnectionKind::Leg, at));
+            for at in ends {
+                line(ConnectionKind::Leg, at);
+            }
             for side in 0..2 {
                 let points = ends.map(|at| at[side]).to_vec();
                 bodies[of[side]].parts.push(Part::Link { points });

@@ -42,7 +42,9 @@ pub(super) fn combined(
     for (within, modes) in parts {
         let with = |(bodies, is_real, times, radius): &Begun, mode: &SpaceMode| -> Begun {
             let mut bodies = bodies.clone();
-            within.iter().for_each(|body| bodies[*body] = Some(mode.bodies[*body].clone()));
+            for body in within {
+                bodies[*body] = Some(mode.bodies[*body].clone());
+            }
             (bodies, *is_real && mode.real, times * mode.multiplicity, radius.max(mode.radius))
         };
         all = all.iter().flat_map(|begun| modes.iter().map(move |mode| with(begun, mode))).collect();

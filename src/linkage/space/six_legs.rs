@@ -191,20 +191,20 @@ impl Parts<'_> {
         Some(Leg { ends, square })
     }
 
-    /// A joint between ground and plate as a leg; `None` inside where it holds nothing.
-    fn direct(&self, joint: usize) -> Option<Option<Leg>> {
+    /// A joint between ground and plate as a leg, and none where it holds nothing.
+    fn direct(&self, joint: usize) -> Option<Vec<Leg>> {
         let square = match &self.linkage.joints[joint].pair {
             SpacePair::Rod(square) => square.clone(),
             SpacePair::Leg => {
                 let known = self.given.iter().find(|one| one.joint == Some(joint)).map(|one| &one.known);
                 match known {
                     Some(Known::Square(square)) => square.clone(),
-                    _ => return Some(None),
+                    _ => return Some(Vec::new()),
                 }
             }
             _ => return None,
         };
-        self.leg([self.point(joint, 0)?, self.point(joint, 1)?], square).map(Some)
+        self.leg([self.point(joint, 0)?, self.point(joint, 1)?], square).map(|leg| vec![leg])
     }
 
     /// A rod that is a body as a leg.
