@@ -152,7 +152,8 @@ class Solutions:
 
     @cached_property
     def bodies(self) -> dict[str, Floats] | None:
-        """Of a linkage for every body (k, 3): angle and position in the plane, or (k, 4): quaternions, w first, on the sphere."""
+        """Of a linkage for every body (k, 3): angle and position in the plane, (k, 4): quaternions, w first, on the sphere, or (k, 7):
+        quaternions and positions in space."""
         return getattr(self._answer, "bodies", None)
 
     def __len__(self) -> int:
@@ -288,8 +289,8 @@ def of_document(text: str) -> Solutions:
 def _places(document: Document, modes: list[Document]) -> dict[str, Floats]:
     def of(name: str) -> Floats:
         bodies = [mode["bodies"][name] for mode in modes]
-        rows = [body["quaternion"] if "quaternion" in body else [body["angle"], *body["position"]] for body in bodies]
-        width = 4 if document["mechanism"]["space"] == "sphere" else 3
+        rows = [[*body.get("quaternion", [body.get("angle")]), *body.get("position", [])] for body in bodies]
+        width = {"plane": 3, "sphere": 4, "space": 7}[document["mechanism"]["space"]]
         return np.array(rows, dtype=np.float64).reshape(len(modes), width)
 
     return {name: of(name) for name in document["mechanism"]["bodies"]}

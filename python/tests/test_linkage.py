@@ -64,8 +64,9 @@ def test_a_linkage_in_space() -> None:
     linkage = lr.load("linkage/delta")
     assert isinstance(linkage, lr.Linkage)
     s = linkage.solve(input={"A1": 0.3})
-    assert len(s) == 2 and s.complete and "<canvas" in s.view()
-    assert s.bodies is not None and np.allclose(s.q[:, 0], 0.3)
+    # The half tangent of 0.3 radian is no rational number.
+    assert len(s) == 2 and s.verdict.proof == "rounded-data" and "<canvas" in s.view()
+    assert s.bodies is not None and s.bodies["plate"].shape == (2, 7) and np.allclose(s.q[:, 0], 0.3)
     sweep = linkage.sweep("A1", 0.3, 0.6, 6, trace="plate.B1")
     assert len(sweep.branches) == 2
     rows = sweep.document["branches"][0]["rows"]
