@@ -51,9 +51,9 @@ pub struct RingCurve {
 /// The curve of a point on the sphere.
 #[derive(Clone, Debug)]
 pub enum SphereTrace {
-    /// That of the coupler of a four-bar, derived.
+    /// The curve of the coupler of a four-bar, which is derived.
     Coupler(Box<SphereCurve>),
-    /// That of another body, interpolated.
+    /// The curve of another body, which is interpolated.
     Sections(RingCurve),
 }
 

@@ -7,7 +7,7 @@
 use super::{End, Range, SweepVerdict};
 use crate::algebra::sort;
 use crate::error::{Error, Result};
-use crate::verdict::{Code, Status};
+use crate::verdict::{Code, Status, Verdict};
 use rayon::prelude::*;
 
 /// Steps in which assemblies appear or vanish are halved until they are this part of the range: limit positions are as
@@ -37,6 +37,28 @@ pub struct AssemblySample<M> {
     pub modes: Vec<M>,
     /// Whether all of them are simple and there are no others.
     pub(super) is_regular: bool,
+}
+
+impl<M> AssemblySample<M> {
+    /// Returns the sample of an answer; `multiplicity` is that of a real assembly, and none of a complex one. A Gröbner basis may be too
+    /// large at one input, and not at others: there the list is incomplete.
+    pub(super) fn of(
+        input: f64,
+        answer: Result<(Verdict, Vec<M>)>,
+        multiplicity: impl Fn(&M) -> Option<usize>,
+    ) -> Result<Self> {
+        match answer {
+            Ok((Verdict { status, reason, .. }, mut modes)) => {
+                modes.retain(|mode| multiplicity(mode).is_some());
+                let is_regular = is_listed(status) && modes.iter().all(|mode| multiplicity(mode) == Some(1));
+                Ok(Self { input, status, reason, modes, is_regular })
+            }
+            Err(Error::Unsupported(reason)) => {
+                Ok(Self { input, status: Status::Incomplete, reason, modes: Vec::new(), is_regular: false })
+            }
+            Err(error) => Err(error),
+        }
+    }
 }
 
 /// An assembly of a branch at one step.

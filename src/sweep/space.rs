@@ -1,7 +1,7 @@
 //! The branches of a linkage in space while the value of a joint runs through a range.
 
 use super::Range;
-use super::assemblies::{AssemblySample, AssemblySweep, Running, follow, is_far, is_listed, step};
+use super::assemblies::{AssemblySample, AssemblySweep, Running, follow, is_far, step};
 use crate::algebra::number::nearest_f64;
 use crate::assembly::wrapped;
 use crate::catalogue::SpaceFile;
@@ -43,19 +43,9 @@ impl Running for Run<'_> {
     type Memory = ();
 
     fn sample(&self, input: f64, (): &mut ()) -> Result<AssemblySample<SpaceMode>> {
-        let answer = match solve_real(&self.file.linkage, &self.given(input)?, true) {
-            Ok(answer) => answer,
-            // A basis may be too large at one input, and not at others.
-            Err(Error::Unsupported(reason)) => {
-                let status = Status::Incomplete;
-                return Ok(AssemblySample { input, status, reason, modes: Vec::new(), is_regular: false });
-            }
-            Err(error) => return Err(error),
-        };
-        let status = answer.verdict.status;
-        let modes: Vec<SpaceMode> = answer.modes.into_iter().filter(|mode| mode.real).collect();
-        let is_regular = is_listed(status) && modes.iter().all(|mode| mode.multiplicity == 1);
-        Ok(AssemblySample { input, status, reason: answer.verdict.reason, modes, is_regular })
+        let answer = solve_real(&self.file.linkage, &self.given(input)?, true);
+        let answer = answer.map(|answer| (answer.verdict, answer.modes));
+        AssemblySample::of(input, answer, |mode| mode.real.then_some(mode.multiplicity))
     }
 
     /// The distance of two assemblies: the largest turn of a body, or the largest step of a joint in parts of the size.

@@ -1,7 +1,7 @@
 //! The branches of a linkage on the sphere while the angle of a joint runs through a range.
 
 use super::Range;
-use super::assemblies::{AssemblySample, AssemblySweep, Proved, Running, follow, is_listed};
+use super::assemblies::{AssemblySample, AssemblySweep, Proved, Running, follow};
 use super::dyads::Proof;
 use super::linking::{Linking, links};
 use crate::algebra::number::{Angle, HalfTangent, nearest_f64};
@@ -50,19 +50,8 @@ impl Running for Run<'_> {
         let rotation = product(&turn, &self.start);
         let driven = SphereGiven { of: own.of, rotation, joint: Some(self.joint), line: own.line };
         let given: Vec<SphereGiven> = self.held.iter().cloned().chain([driven]).collect();
-        let answer = match solve(self.linkage, &given, true) {
-            Ok(answer) => answer,
-            // A basis may be too large at one input, and not at others.
-            Err(Error::Unsupported(reason)) => {
-                let status = Status::Incomplete;
-                return Ok(AssemblySample { input, status, reason, modes: Vec::new(), is_regular: false });
-            }
-            Err(error) => return Err(error),
-        };
-        let status = answer.verdict.status;
-        let modes: Vec<SphereMode> = answer.modes.into_iter().filter(|mode| mode.real).collect();
-        let is_regular = is_listed(status) && modes.iter().all(|mode| mode.multiplicity == 1);
-        Ok(AssemblySample { input, status, reason: answer.verdict.reason, modes, is_regular })
+        let answer = solve(self.linkage, &given, true).map(|answer| (answer.verdict, answer.modes));
+        AssemblySample::of(input, answer, |mode| mode.real.then_some(mode.multiplicity))
     }
 
     /// The distance of two assemblies: the largest turn of a joint.
