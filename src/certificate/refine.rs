@@ -22,8 +22,9 @@ const DECIMALS: u32 = 30;
 const RADII: [u32; 8] = [8, 9, 10, 12, 14, 16, 20, 25];
 /// Radii of linkages: their vectors have to be independent in whole balls, however long those of theorem 13 are.
 const SMALL_RADII: [u32; 2] = [20, 25];
-/// Factor by which the ball of the proof may be enlarged: another checker may bound the second derivatives less tightly.
-const ROOM: u32 = 10;
+/// Factor by which the ball of the proof may be enlarged: another checker may bound the second derivatives less tightly. `verify.py` multiplies
+/// out what is factored here, which costs a factor between 10 and 100 where a complex quaternion has parts of a hundred.
+const ROOM: u32 = 1000;
 
 /// Solutions nearer than this are the same but for rounding.
 const ROUNDED: f64 = 1e-6;

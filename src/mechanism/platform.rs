@@ -1,24 +1,42 @@
 //! Stewart platforms: one geometry, one set of leg lengths after the other.
 
+mod curve;
+mod dependent;
 mod exact;
 mod roots;
 
 use super::{Family, FullMode, PlatformAnswer, PlatformMode, Solution};
 use crate::algebra::number::Number;
 use crate::algebra::ring::Ring;
-use crate::assembly::platform::{self, Distances, PlatformAssembly, PlatformSolver, PlatformWorkspace};
+use crate::assembly::platform::{self, Distances, PlatformAssembly, PlatformSolver, PlatformWorkspace, Route};
 use crate::assembly::{Roots, Workspace};
 use crate::catalogue::entry::Case;
 use crate::elimination::border::DIMENSION;
 use crate::elimination::platform_polynomial::PlatformPolynomial;
 use crate::error::{Error, Result};
+use crate::kinematics::chain::Placement;
+use crate::kinematics::motion::Motion;
 use crate::kinematics::platform::{Platform, pose_of};
 use crate::kinematics::platform_limits::{Part, PlatformLimits, listed};
 use crate::kinematics::velocity::velocity;
-use crate::verdict::{Code, PlatformKnowledge, Status, platform_verdict};
+use crate::verdict::{Code, Moving, PlatformKnowledge, Proof, Status, platform_verdict};
+use curve::moves_along_curve;
+use dependent::{Consistency, DependentLegs};
 use exact::{ExactSide, Search};
 use rug::Rational;
 use std::time::Instant;
+
+/// Most poses of a family seen in f64 from which a regular one is looked for.
+const MOST_NEAR: usize = 8;
+
+/// What is looked for.
+struct Asked {
+    roots: Roots,
+    /// Whether complex poses are looked for beside the real ones.
+    complex: bool,
+    /// Whether the list has to be complete: it is known to have no real pose otherwise.
+    is_needed: bool,
+}
 
 /// A platform, prepared.
 pub(super) struct PreparedPlatform {
@@ -28,6 +46,8 @@ pub(super) struct PreparedPlatform {
     is_rounded: bool,
     distances: Distances,
     solver: PlatformSolver,
+    /// The legs that follow from others, whatever their lengths are.
+    dependent: Option<DependentLegs>,
     limits: PlatformLimits,
     prepare_us: f64,
 }
@@ -87,10 +107,11 @@ impl PreparedPlatform {
             over(geometry).ok_or_else(|| Error::Invalid("a coordinate without value".to_owned()))?;
         let start = Instant::now();
         let solver = PlatformSolver::prepare_exact(&exact);
+        let dependent = DependentLegs::of(&exact);
         let prepare_us = start.elapsed().as_secs_f64() * 1e6;
         let distances = Distances::new(&exact);
         let is_rounded = geometry.base.iter().chain(&geometry.plate).flatten().any(|number| !number.is_exact());
-        Ok(Self { exact, is_rounded, distances, solver, limits: limits.clone(), prepare_us })
+        Ok(Self { exact, is_rounded, distances, solver, dependent, limits: limits.clone(), prepare_us })
     }
 
     /// Finds all poses with the legs of one case.
@@ -102,22 +123,19 @@ impl PreparedPlatform {
         let complex = !workspace.only_real_list;
         let (memory, assembly) = (&mut workspace.platform, &mut workspace.platform_assembly);
         let start = Instant::now();
-        self.solver.solve_up_to(&squares, roots, None, memory, assembly);
-        let mut solve_us = start.elapsed().as_secs_f64() * 1e6;
         let short = self.distances.out_of_reach(&squares);
-        let mut knowledge = PlatformKnowledge::default();
-        let is_asked = complex || short.is_none();
-        let is_settled_in_f64 = is_settled(assembly);
-        if roots == Roots::All && is_asked && !is_settled_in_f64 {
-            let start = Instant::now();
-            let (platform, squares, incidence) = (&self.exact, &squares, self.solver.incidence());
-            let side = ExactSide { platform, squares, incidence, complex };
-            knowledge = side.settle(&mut Search { solver: &self.solver, memory, assembly }, None);
-            solve_us += start.elapsed().as_secs_f64() * 1e6;
-        }
+        let asked = Asked { roots, complex, is_needed: complex || short.is_none() };
+        let mut knowledge = self.knowledge(&squares, &asked, memory, assembly);
         knowledge.complex_asked = complex && roots == Roots::All;
         knowledge.no_real_pose = short.is_some();
         let mut verdict = platform_verdict(assembly, roots, &knowledge);
+        if roots == Roots::All && verdict.proof != Proof::Proved && assembly.self_motion <= 1 && self.moves_at(case, &squares) {
+            knowledge.moving = Some(Moving { dimension: 1, is_all: false });
+            self.trace(case, &squares, assembly);
+            verdict = platform_verdict(assembly, roots, &knowledge);
+        }
+        let solve_us = start.elapsed().as_secs_f64() * 1e6;
+        let is_settled_in_f64 = is_settled(assembly);
         // Certificates in f64 have the rounding of every coordinate in their radii; whatever else there is speaks of the rationals that
         // stand for irrational coordinates.
         let is_theorem = is_settled_in_f64 && verdict.code == Code::GeneralBoundMet;
@@ -139,6 +157,74 @@ impl PreparedPlatform {
             solve_us,
             platform: Some(PlatformAnswer { legs, route: assembly.route.to_string(), outside }),
         })
+    }
+
+    /// Finds the poses, and says what is known of their number.
+    fn knowledge(
+        &self,
+        squares: &[Rational; 6],
+        asked: &Asked,
+        memory: &mut PlatformWorkspace,
+        assembly: &mut PlatformAssembly,
+    ) -> PlatformKnowledge {
+        let dependent = self.dependent.as_ref().filter(|_| asked.roots == Roots::All);
+        if let Some(legs) = dependent
+            && let Some(knowledge) = self.by_dependence(legs, squares, &[], memory, assembly)
+        {
+            return knowledge;
+        }
+        self.solver.solve_up_to(squares, asked.roots, None, memory, assembly);
+        if asked.roots != Roots::All || !asked.is_needed || is_settled(assembly) {
+            return PlatformKnowledge::default();
+        }
+        let side = ExactSide {
+            platform: &self.exact,
+            squares,
+            incidence: self.solver.incidence(),
+            complex: asked.complex,
+        };
+        let found = side.settle(&mut Search { solver: &self.solver, memory, assembly }, None);
+        let near: Vec<Motion<f64>> = assembly.motion.iter().filter_map(|pose| pose_of(pose)).take(MOST_NEAR).collect();
+        let proved = dependent.filter(|_| !near.is_empty());
+        proved.and_then(|legs| self.by_dependence(legs, squares, &near, memory, assembly)).unwrap_or(found)
+    }
+
+    /// What is known where legs depend on others; `None` where no real pose is found with their lengths. `near` are poses nearby.
+    fn by_dependence(
+        &self,
+        legs: &DependentLegs,
+        squares: &[Rational; 6],
+        near: &[Motion<f64>],
+        memory: &mut PlatformWorkspace,
+        assembly: &mut PlatformAssembly,
+    ) -> Option<PlatformKnowledge> {
+        let Consistency::Families(dimension) = legs.consistency(&self.exact, squares) else {
+            *assembly = PlatformAssembly { route: Route::Dependent, ..PlatformAssembly::default() };
+            return Some(PlatformKnowledge { count: Some(dependent::contradiction()), ..PlatformKnowledge::default() });
+        };
+        let pose = legs.regular_pose(squares, near, memory)?;
+        let motion = match pose_of(&pose) {
+            Some(through) if dimension == 1 => self.solver.curve_through(squares, &through),
+            _ => vec![pose],
+        };
+        *assembly = PlatformAssembly { route: Route::Dependent, self_motion: dimension, motion, ..PlatformAssembly::default() };
+        Some(PlatformKnowledge { moving: Some(Moving { dimension, is_all: true }), ..PlatformKnowledge::default() })
+    }
+
+    /// Returns whether the platform moves with its legs locked through the pose from which their lengths were computed.
+    fn moves_at(&self, case: &Case, squares: &[Rational; 6]) -> bool {
+        let pose = case.pose.as_ref().and_then(Placement::image::<Rational>);
+        pose.is_some_and(|pose| moves_along_curve(&self.exact, squares, &pose))
+    }
+
+    /// Follows the curve through the pose from which the lengths of the legs were computed, if there are no poses of it yet.
+    fn trace(&self, case: &Case, squares: &[Rational; 6], assembly: &mut PlatformAssembly) {
+        assembly.self_motion = 1;
+        if assembly.motion.is_empty()
+            && let Some(pose) = &case.pose
+        {
+            assembly.motion = self.solver.curve_through(squares, &pose.float);
+        }
     }
 
     /// Returns the joints whose legs leave their cones at a pose.

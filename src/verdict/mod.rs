@@ -3,7 +3,7 @@
 mod platform;
 mod proof;
 
-pub use platform::{MOST_POSES, PlatformKnowledge, platform_verdict};
+pub use platform::{MOST_POSES, Moving, PlatformKnowledge, platform_verdict};
 pub use proof::{Code, Proof};
 
 use crate::assembly::{Assembly, Mode, Roots, are_apart};

@@ -20,10 +20,40 @@ pub struct PlatformKnowledge {
     /// The proof that no real pose is missing: every real root of the exact polynomial belongs to listed real poses whose
     /// multiplicities add up to its own.
     pub reals: Option<Proof>,
+    /// The self-motion that is proved.
+    pub moving: Option<Moving>,
     /// Whether two legs alone show that no pose is real.
     pub no_real_pose: bool,
     /// Whether complex poses are requested as well.
     pub complex_asked: bool,
+}
+
+/// A self-motion of a platform that is proved to be real.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Moving {
+    /// Its dimension.
+    pub dimension: usize,
+    /// Whether no pose is isolated, because legs depend on others; it goes through the pose of the file otherwise.
+    pub is_all: bool,
+}
+
+impl Moving {
+    fn judged(self) -> Judged {
+        let Self { dimension, is_all } = self;
+        let reason = if is_all {
+            format!(
+                "poses form a self-motion of dimension {dimension}, and none is isolated: the equations of some legs are combinations of \
+                 the others'"
+            )
+        } else {
+            format!(
+                "poses form a self-motion of dimension {dimension} through the pose of the file, as power series show; the isolated ones \
+                 are listed, not proved complete"
+            )
+        };
+        let proof = Proof::Proved;
+        Judged { status: Status::SelfMotion, proof, ..Judged::unproved(Code::SelfMotion, reason) }
+    }
 }
 
 /// Judges the poses of a platform.
@@ -31,11 +61,13 @@ pub struct PlatformKnowledge {
 pub fn platform_verdict(assembly: &PlatformAssembly, roots: Roots, knowledge: &PlatformKnowledge) -> Verdict {
     let dimension = match knowledge.infinite {
         // Where solutions are multiple, a pose is shaky in more directions than it can move.
-        Some(counted) => assembly.self_motion.min(counted),
-        None => assembly.self_motion,
+        Some(counted) if knowledge.moving.is_none() => assembly.self_motion.min(counted),
+        _ => assembly.self_motion,
     };
     let mut complex_complete = false;
-    let mut judged = if dimension > 0 {
+    let mut judged = if let Some(moving) = knowledge.moving {
+        moving.judged()
+    } else if dimension > 0 {
         let reason = format!(
             "poses form a self-motion of dimension {dimension}, as far as f64 tells; the isolated ones are listed, not proved \
              complete"

@@ -6,6 +6,7 @@ mod equations;
 mod exact;
 mod null;
 mod poses;
+mod self_motions;
 mod special;
 mod template;
 mod triangle;

@@ -58,6 +58,8 @@ pub enum Route {
         /// Number of general platforms that served as starts.
         runs: usize,
     },
+    /// A further leg in the place of each leg that depends on others: poses are on families only.
+    Dependent,
 }
 
 impl fmt::Display for Route {
@@ -80,6 +82,7 @@ impl fmt::Display for Route {
             Self::Affine => {
                 write!(f, "algebra of the rotations (base and plate are affine images of the same six points)")
             }
+            Self::Dependent => write!(f, "a further leg in the place of each that depends on the others"),
             Self::Homotopy { runs } => write!(
                 f,
                 "parameter homotopy, 40 paths from a general platform to this one, {runs} {} (special geometry: the border \

@@ -7,9 +7,10 @@ use crate::certify::pose::Curvature;
 use crate::closure::study::{Form, Four, Leg, left, leg_matrix, linear_legs, right, scalar};
 use crate::elimination::border::{Directions, Reals, Setting, weak_directions};
 use crate::kinematics::dual_quaternion::Quaternion;
-use crate::kinematics::motion::Vector;
+use crate::kinematics::motion::{Motion, Vector};
 use crate::kinematics::platform::Platform;
 use crate::solve::scalar::Scalar;
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use num_complex::Complex;
 use rug::Rational;
 
@@ -262,6 +263,19 @@ impl Frame {
             }
         }
         platform
+    }
+
+    /// Returns Study's parameters of a real pose of the platform as given.
+    pub fn study(&self, pose: &Motion<f64>) -> [f64; 8] {
+        let rotation = Rotation3::from_matrix_unchecked(Matrix3::from_fn(|i, k| pose.rotation[i][k]));
+        let [x, y, z, w] = UnitQuaternion::from_rotation_matrix(&rotation).coords.into();
+        let x = Quaternion { scalar: w, vector: [x, y, z] };
+        let centre = pose.apply(&self.origins[1]);
+        let place = std::array::from_fn(|k| (centre[k] - self.origins[0][k]) / self.scale);
+        let y = Quaternion { scalar: 0.0, vector: place }.mul(&x);
+        let parts = |q: &Quaternion<f64>| [q.scalar, q.vector[0], q.vector[1], q.vector[2]];
+        let (x, y) = (parts(&x), parts(&y));
+        std::array::from_fn(|k| if k < 4 { x[k] } else { y[k - 4] })
     }
 
     /// Returns the translation of a pose in the unit and about the origin of the platform as given.

@@ -20,7 +20,7 @@ use crate::elimination::multiple_pose::ExactPoses;
 use crate::elimination::pencil::Square;
 use crate::elimination::platform_basis::PoseTable;
 use crate::elimination::platform_incidence::most_poses;
-use crate::kinematics::motion::Vector;
+use crate::kinematics::motion::{Motion, Vector};
 use crate::kinematics::platform::Platform;
 use crate::solve::eigen::Method;
 use crate::solve::pose::Eight;
@@ -244,6 +244,15 @@ impl PlatformSolver {
     ) {
         workspace.found.retain(|found| found.certificate.is_some());
         self.run(&Squares::of(legs_squared), Roots::All, None, Effort::Homotopies, workspace, assembly);
+    }
+
+    /// Returns the poses on the curve through a real pose with legs of these squared lengths, as quaternion and position, in their order; none
+    /// where the legs are others.
+    #[must_use]
+    pub fn curve_through(&self, legs_squared: &[Rational; 6], pose: &Motion<f64>) -> Vec<[f64; 7]> {
+        let numbers = self.frame.with_legs(&Squares::of(legs_squared));
+        let points = curve(&numbers.legs, &self.frame.study(pose));
+        points.iter().map(|point| self.pose(point)).collect()
     }
 
     /// Replaces the unproved solutions of the list solved last in this workspace by multiple poses that are known exactly.
