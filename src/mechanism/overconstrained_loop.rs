@@ -1,5 +1,6 @@
 //! Loops with fewer than six unknowns: overconstrained mechanisms and structures.
 
+mod beside;
 mod few_revolutes;
 
 use super::by_input::{ByInput, Prepared};
@@ -11,7 +12,7 @@ use crate::algebra::drawn::Drawn;
 use crate::algebra::long_float::LongFloat;
 use crate::algebra::number::{Angle, HalfTangent, Number, nearest_f64};
 use crate::algebra::sort;
-use crate::assembly::{Assembly, Mode, Roots, Solver, Workspace, by_ring, proof, wrapped};
+use crate::assembly::{Assembly, Gap, Mode, Roots, Solver, Workspace, by_ring, proof, wrapped};
 use crate::catalogue::entry::{Case, Entry, Input, InputValue};
 use crate::elimination::common_roots::common_roots;
 use crate::elimination::coordinate_ring::Plan;
@@ -225,7 +226,13 @@ impl OverconstrainedLoop {
             None if locked.is_none() => self.motion(workspace, assembly)?,
             _ => None,
         };
+        let mut families = Vec::new();
         let (verdict, modes) = match moving {
+            Some((verdict, modes)) if verdict.status == Status::SelfMotion && modes.is_empty() && locked.is_some() => {
+                let beside = self.beside(ladder, case, verdict, workspace, assembly)?;
+                families = beside.families;
+                (beside.verdict, beside.modes)
+            }
             Some(answer) => answer,
             None => self.isolated(ladder, case, roots, workspace, assembly)?,
         };
@@ -240,7 +247,7 @@ impl OverconstrainedLoop {
         Ok(Solution {
             arm: None,
             nearest: None,
-            families: Vec::new(),
+            families,
             verdict,
             modes,
             warnings,
@@ -492,13 +499,7 @@ impl OverconstrainedLoop {
         assembly: &mut Assembly,
     ) -> Result<Vec<Candidate>> {
         let Rung { layout, solver, open, .. } = rung;
-        let closing: Motion<f64> = closing_transformation(case)?;
-        let mut gap = solver.gap(&closing);
-        if gap.is_rough() {
-            let open: OpenLoop<Rational> = self.chain.open_loop(layout)?;
-            let [.., last] = open.close(&super::single_loop::closing_transformation(case)?).constants;
-            gap = last.map(|x| Some(nearest_f64(x))).map_or(gap, |last| solver.exact_gap(&last));
-        }
+        let gap = self.gap(rung, case)?;
         solver.solve_up_to(&gap, roots, &|_| most.unwrap_or(usize::MAX), workspace, assembly);
         let setting = self.setting(layout, open, case)?;
         let candidate = |mode: &Mode| {
@@ -508,6 +509,18 @@ impl OverconstrainedLoop {
         let mut candidates: Vec<Candidate> = assembly.modes.iter().filter_map(candidate).collect();
         sort::by(&mut candidates, |a, b| a.idle.total_cmp(&b.idle));
         Ok(candidates)
+    }
+
+    /// The closing transformation of a case.
+    fn gap(&self, Rung { layout, solver, .. }: &Rung, case: &Case) -> Result<Gap> {
+        let closing: Motion<f64> = closing_transformation(case)?;
+        let gap = solver.gap(&closing);
+        if !gap.is_rough() {
+            return Ok(gap);
+        }
+        let open: OpenLoop<Rational> = self.chain.open_loop(layout)?;
+        let [.., last] = open.close(&closing_transformation(case)?).constants;
+        Ok(last.map(|x| Some(nearest_f64(x))).map_or(gap, |last| solver.exact_gap(&last)))
     }
 
     /// An exact upper bound of the number of solutions, by the common roots of two choices of virtual unknowns.

@@ -6,7 +6,7 @@ use super::near::{Near, Neighbourhood, Start};
 use super::single_loop::{SingleLoop, SixUnknowns, full_mode};
 use crate::assembly::{Assembly, Gap, Hits, Mode};
 use crate::kinematics::chain::Placement;
-use crate::kinematics::closed_loop::{ClosedLoop, Variable};
+use crate::kinematics::closed_loop::{ClosedLoop, Layout, Variable};
 use crate::kinematics::forward::Forward;
 use crate::kinematics::motion::Motion;
 use crate::kinematics::tolerance::Tolerance;
@@ -49,22 +49,13 @@ impl Vicinity<'_> {
         found: impl Iterator<Item = (&'b SelfMotion, f64)>,
         within: f64,
     ) -> Vec<Family> {
-        let layout = &self.prepared.layout;
-        let joints = Joints { variables: &layout.variables, limits: &self.of.limits };
-        let configuration = |point: &Six<f64>| layout.assemble(&in_unit(point, closed, scale), self.locked);
-        let one = |(motion, distance): (&SelfMotion, f64)| {
-            let between = |first: usize, part: f64| Some(configuration(&motion.between(closed, first, part, within)?));
-            let moving = layout.assemble(&motion.moving, false);
-            let shape = Shape {
-                dimension: motion.dimension,
-                moving: (0..moving.len()).filter(|&k| moving[k]).collect(),
-                distance,
-                points: motion.points.iter().map(configuration).collect(),
-                is_closed: motion.is_closed,
-            };
-            joints.families(&shape, &between)
-        };
-        found.flat_map(one).collect()
+        let Layout { variables, .. } = &self.prepared.layout;
+        let joints = Joints { variables, limits: &self.of.limits };
+        found.flat_map(|one| self.place(closed, scale).families(joints, one, within)).collect()
+    }
+
+    fn place<'b>(&'b self, closed: &'b ClosedLoop<f64>, scale: f64) -> Place<'b> {
+        Place { layout: &self.prepared.layout, locked: self.locked, closed, scale }
     }
 
     /// Returns the configurations near the pose of an arm. Where the list of solutions is unknown, only the families met are
@@ -149,6 +140,36 @@ impl Vicinity<'_> {
     }
 }
 
+/// A loop of six unknowns, some of which may be virtual joints, at an input or a pose.
+#[derive(Clone, Copy)]
+pub(super) struct Place<'a> {
+    pub layout: &'a Layout,
+    /// The value of the locked variable.
+    pub locked: f64,
+    /// The loop with lengths over a unit, and this unit.
+    pub closed: &'a ClosedLoop<f64>,
+    pub scale: f64,
+}
+
+impl Place<'_> {
+    /// Returns a self-motion whose points have lengths over the unit, and its distance from what was asked for, as families of joint variables.
+    pub fn families(&self, joints: Joints, (motion, distance): (&SelfMotion, f64), within: f64) -> Vec<Family> {
+        let configuration =
+            |point: &Six<f64>| self.layout.assemble(&in_unit(point, self.closed, self.scale), self.locked);
+        let between =
+            |first: usize, part: f64| Some(configuration(&motion.between(self.closed, first, part, within)?));
+        let moving = self.layout.assemble(&motion.moving, false);
+        let shape = Shape {
+            dimension: motion.dimension,
+            moving: (0..moving.len()).filter(|&k| moving[k]).collect(),
+            distance,
+            points: motion.points.iter().map(configuration).collect(),
+            is_closed: motion.is_closed,
+        };
+        joints.families(&shape, &between)
+    }
+}
+
 /// A point with its translations in another unit.
 fn in_unit(point: &Six<f64>, closed: &ClosedLoop<f64>, unit: f64) -> Six<f64> {
     std::array::from_fn(|k| match closed.variables[k] {
@@ -158,7 +179,7 @@ fn in_unit(point: &Six<f64>, closed: &ClosedLoop<f64>, unit: f64) -> Six<f64> {
 }
 
 /// A self-motion with its translations in another unit.
-fn scaled(motion: &SelfMotion, closed: &ClosedLoop<f64>, unit: f64) -> SelfMotion {
+pub(super) fn scaled(motion: &SelfMotion, closed: &ClosedLoop<f64>, unit: f64) -> SelfMotion {
     let points = motion.points.iter().map(|point| in_unit(point, closed, unit)).collect();
     SelfMotion { points, ..motion.clone() }
 }

@@ -72,7 +72,7 @@ pub fn verdict(kind: Kind, solution: &Solution) -> String {
         }
         Status::SelfMotion => {
             let beside = match found {
-                0 => "no isolated root".to_owned(),
+                0 => "no isolated root listed".to_owned(),
                 n => format!("{} beside it ({} real{})", counted(n, "isolated root"), verdict.real, near(solution)),
             };
             let proof = proof(verdict.proof);

@@ -8,6 +8,8 @@ use super::measure::measure;
 use super::outcome::{Outcome, Point, Points, dimension_modulo_prime};
 use crate::algebra::disc::Disc;
 use crate::algebra::drawn;
+use crate::algebra::groebner::{Equation, MOST_VARIABLES};
+use crate::algebra::ring::Ring;
 use crate::algebra::sort;
 use crate::assembly::wrapped;
 use crate::catalogue::entry::Case;
@@ -19,7 +21,7 @@ use crate::mechanism::FullMode;
 use crate::mechanism::single_loop::{locked_value, within_limits};
 use crate::verdict::{Code, Proof, Status, Verdict};
 use num_complex::Complex;
-use rug::{Float, float::Round};
+use rug::{Float, Rational, float::Round};
 
 /// Products of words after which a system is given up. Loops of four unknowns take a thousandth of it, half of the self-motions
 /// of six joints a part of it, and what general loops of five take, or some special ones, is hours.
@@ -61,11 +63,7 @@ impl Question<'_> {
         {
             return Ok(Some(self.simple(&cycle, &found)));
         }
-        let system = match &cycle.before {
-            Some(before) => System::of_point(&cycle.steps, &before.inverse().translation),
-            None => System::of_loop(&cycle.steps),
-        };
-        let Some(system) = system else { return Ok(None) };
+        let Some(system) = system(&cycle) else { return Ok(None) };
         Ok(match Outcome::of(&system, EFFORT) {
             Some(Outcome::Moving(dimension)) => Some((self.moving(&cycle, dimension), Vec::new())),
             Some(Outcome::Finite(points)) => Some(self.finite(&cycle, &system, &points)),
@@ -103,6 +101,24 @@ impl Question<'_> {
         }))
     }
 
+    /// Returns all solutions but those at which every standing joint of one of these families stands as on it, in the order of a list, and how
+    /// many there are with multiplicity; `None` where they are not known to be finitely many.
+    ///
+    /// # Errors
+    /// As [`Question::answer`].
+    pub fn beside(&self, families: &[Standing]) -> Result<Option<(Vec<FullMode>, usize)>> {
+        let Some(cycle) = Cycle::of(self.chain, self.layout, self.case)? else { return Ok(None) };
+        let Some(system) = system(&cycle).filter(|system| system.variables < MOST_VARIABLES) else { return Ok(None) };
+        let (mut modes, mut count) = (Vec::new(), 0);
+        for part in elsewhere(&system, &cycle, families).into_iter().flatten() {
+            let Some(Outcome::Finite(points)) = Outcome::of(&part, EFFORT) else { return Ok(None) };
+            count += points.count;
+            modes.extend(self.modes(&cycle, &system, &points));
+        }
+        sort::by(&mut modes, in_order);
+        Ok((count > 0).then_some((modes, count)))
+    }
+
     fn proof(&self) -> Proof {
         Proof::Proved.of_rounded(self.is_rounded)
     }
@@ -136,12 +152,16 @@ impl Question<'_> {
         }
     }
 
-    fn finite(&self, cycle: &Cycle, system: &System, points: &Points) -> Answer {
+    /// The modes of finitely many solutions; a complex one may have no angles.
+    fn modes(&self, cycle: &Cycle, system: &System, points: &Points) -> Vec<FullMode> {
         let configurations = Configurations::new(system, &cycle.steps, cycle.before.as_ref(), points);
         let mode =
             |point: &Point| Some(self.mode(cycle, point.is_real(), point.multiplicity, &configurations.at(point)?));
-        let modes = points.distinct.iter().filter_map(mode).collect();
-        // A complex solution may have no angles.
+        points.distinct.iter().filter_map(mode).collect()
+    }
+
+    fn finite(&self, cycle: &Cycle, system: &System, points: &Points) -> Answer {
+        let modes = self.modes(cycle, system, points);
         self.listed(modes, points.distinct.len(), [points.count, points.real()], reason(cycle, points))
     }
 
@@ -236,6 +256,58 @@ pub(super) fn nearest(ball: &Disc, variable: Variable, real: bool) -> (Complex<f
     }
     // The error of the sums of this function.
     (value, error * (1.0 + 8.0 * f64::EPSILON) + f64::MIN_POSITIVE)
+}
+
+/// The joints that stand on a family: the index of the joint variable, and its cosine and sine or its distance and 0.
+pub(crate) type Standing = Vec<(usize, [Rational; 2])>;
+
+/// Most systems of equations into which what is left beside families is divided.
+const MOST_PARTS: usize = 32;
+
+/// Returns the systems of all solutions at which for each family some standing joint stands elsewhere. No solution is in two of them: where
+/// the joint stands elsewhere, all earlier ones stand as on the family. `None` for too many.
+fn elsewhere(system: &System, cycle: &Cycle, families: &[Standing]) -> Option<Vec<System>> {
+    let constant = |x: &Rational| Equation::from_rational(x);
+    // What is added to the equations, and the factors that are not 0.
+    let mut parts: Vec<(Vec<Equation>, Equation)> = vec![(Vec::new(), Equation::one())];
+    for family in families {
+        let mut more = Vec::new();
+        for (equations, factor) in &parts {
+            let mut equations = equations.clone();
+            for (index, [one, other]) in family {
+                let step = cycle.indices.iter().position(|own| own == index)?;
+                let [x, y] = &system.unknowns[step];
+                let (a, b) = (constant(one)?, constant(other)?);
+                // Of two angles the cosine of the difference is 1 only if they agree.
+                let gap = match cycle.steps[step].variable {
+                    Variable::Rotation => Equation::one().sub(&x.mul(&a)).sub(&y.mul(&b)),
+                    Variable::Translation => x.sub(&a),
+                };
+                more.push((equations.clone(), factor.mul(&gap)));
+                equations.extend([x.sub(&a), y.sub(&b)]);
+            }
+        }
+        parts = more;
+        if parts.len() > MOST_PARTS {
+            return None;
+        }
+    }
+    let inverse = Equation::variable(system.variables);
+    let with = |(equations, factor): (Vec<Equation>, Equation)| {
+        let mut part = System { variables: system.variables + 1, ..system.clone() };
+        part.equations.extend(equations);
+        part.equations.push(factor.mul(&inverse).sub(&Equation::one()));
+        part
+    };
+    Some(parts.into_iter().map(with).collect())
+}
+
+/// The closure equations; `None` for too many unknowns.
+fn system(cycle: &Cycle) -> Option<System> {
+    match &cycle.before {
+        Some(before) => System::of_point(&cycle.steps, &before.inverse().translation),
+        None => System::of_loop(&cycle.steps),
+    }
 }
 
 /// Names the equations of a loop.

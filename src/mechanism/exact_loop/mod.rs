@@ -15,5 +15,5 @@ mod outcome;
 pub(crate) mod roots;
 mod ss_dyad;
 
-pub(super) use answer::{Answer, Question};
+pub(super) use answer::{Answer, Question, Standing};
 pub(super) use ss_dyad::SsDyadQuestion;

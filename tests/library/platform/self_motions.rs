@@ -25,7 +25,7 @@ fn solved(base: &Points, plate: &Points, legs: &Value) -> Solution {
     let mut file = json!({"mechanism": {"kind": "platform", "base": texts(base), "plate": texts(plate)}});
     let (key, value) = legs.as_object().unwrap().iter().next().unwrap();
     file[key] = value.clone();
-    let loaded = load_text("platform", &file.to_string(), Format::Json, &Options::default()).unwrap();
+    let loaded = load_text(&file.to_string(), "platform.json", Format::Json, &Options::default()).unwrap();
     let (mut workspace, mut assembly) = Default::default();
     let mechanism = Mechanism::prepare(&loaded).unwrap();
     mechanism.solve(&loaded.cases[0], Roots::All, &mut workspace, &mut assembly).unwrap()
