@@ -139,6 +139,8 @@ pub struct RingDerivation {
     pub equations: Vec<Polynomial<Rational>>,
     /// What the variables of the equations stand for.
     pub symbols: Vec<Symbol>,
+    /// The unknown of the first polynomial in terms of these variables: a numerator and a denominator.
+    pub unknown: [Polynomial<Rational>; 2],
     /// The reasons why some polynomials are missing.
     pub warnings: Vec<String>,
 }
@@ -347,8 +349,13 @@ pub(super) fn part_on_sphere(linkage: &SphereLinkage, given: &[SphereGiven]) -> 
 
 /// Returns the polynomials of these parts, the last first.
 fn derivation(parts: Vec<Result<Part>>) -> Result<RingDerivation> {
-    let mut found =
-        RingDerivation { polynomials: Vec::new(), equations: Vec::new(), symbols: Vec::new(), warnings: Vec::new() };
+    let mut found = RingDerivation {
+        polynomials: Vec::new(),
+        equations: Vec::new(),
+        symbols: Vec::new(),
+        unknown: [Polynomial::zero(), Polynomial::one()],
+        warnings: Vec::new(),
+    };
     for (number, part) in parts.into_iter().enumerate().rev() {
         let derived = part.map_err(|error| error.to_string()).and_then(|part| Ok((part.polynomial(number)?, part)));
         match derived {
@@ -357,6 +364,14 @@ fn derivation(parts: Vec<Result<Part>>) -> Result<RingDerivation> {
                     let variables: Vec<Polynomial<Rational>> = (0..part.unknowns).map(Polynomial::variable).collect();
                     let written = |equation: &Equation| primitive(&equation.evaluate(&variables));
                     found.equations = part.equations.iter().map(written).collect();
+                    let own = part.functions.iter().find(|(unknown, _)| *unknown == polynomial.unknown);
+                    if let Some((_, function)) = own {
+                        let fraction = match function {
+                            Function::Plain(value) => [value.clone(), Equation::one()],
+                            Function::HalfTangent { cos, sin, .. } => [sin.clone(), cos.add(&Equation::one())],
+                        };
+                        found.unknown = fraction.map(|part| part.evaluate(&variables));
+                    }
                     found.symbols = part.symbols;
                 }
                 found.polynomials.push(polynomial);

@@ -142,10 +142,33 @@ fn unknown_symbol(name: &str, known: &str) -> Error {
 const IN_SPACE: &str =
     "--symbolic=NAMES of coordinates of points as crank.B.x, of lengths as rod.length, and of given joints";
 
+/// Most names that a message lists.
+const LISTED: usize = 24;
+
+/// Whether a joint has a length that may be a symbol.
+fn has_length(pair: &SpacePair) -> bool {
+    matches!(pair, SpacePair::Rod(_) | SpacePair::Parallelogram(..))
+}
+
+/// The names of given joints, lengths and coordinates.
+fn names_in_space(file: &SpaceFile, case: usize) -> impl Iterator<Item = String> {
+    let joints = &file.linkage.joints;
+    let given = file.cases[case].given.iter().filter_map(|one| one.joint).map(|joint| joints[joint].name.clone());
+    let lengths = joints.iter().filter(|joint| has_length(&joint.pair)).map(|joint| format!("{}.length", joint.name));
+    let coordinates = file.linkage.bodies.iter().flat_map(|body| {
+        let own = |point: &str, axis| format!("{}.{point}.{axis}", body.name);
+        body.points.iter().flat_map(move |(point, _)| ["x", "y", "z"].map(|axis| own(point, axis)))
+    });
+    given.chain(lengths).chain(coordinates)
+}
+
 fn parameter(file: &SpaceFile, case: usize, name: &str) -> Result<Parameter> {
     let linkage = &file.linkage;
     let joint = |name: &str| linkage.joints.iter().position(|joint| joint.name == name);
-    let none = || unknown_symbol(name, IN_SPACE);
+    let none = || {
+        let known: Vec<String> = names_in_space(file, case).take(LISTED).collect();
+        unknown_symbol(name, &format!("some of {}", known.join(", ")))
+    };
     match name.split('.').collect::<Vec<&str>>()[..] {
         [own] => {
             let joint = joint(own).ok_or_else(none)?;
@@ -154,8 +177,7 @@ fn parameter(file: &SpaceFile, case: usize, name: &str) -> Result<Parameter> {
         }
         [own, "length"] => {
             let joint = joint(own).ok_or_else(none)?;
-            let has_length = matches!(linkage.joints[joint].pair, SpacePair::Rod(_) | SpacePair::Parallelogram(..));
-            if has_length { Ok(Parameter::Length(joint)) } else { Err(none()) }
+            if has_length(&linkage.joints[joint].pair) { Ok(Parameter::Length(joint)) } else { Err(none()) }
         }
         [own, point, axis] => {
             let body = linkage.bodies.iter().position(|body| body.name == own).ok_or_else(none)?;

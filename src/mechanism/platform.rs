@@ -129,7 +129,11 @@ impl PreparedPlatform {
         knowledge.complex_asked = complex && roots == Roots::All;
         knowledge.no_real_pose = short.is_some();
         let mut verdict = platform_verdict(assembly, roots, &knowledge);
-        if roots == Roots::All && verdict.proof != Proof::Proved && assembly.self_motion <= 1 && self.moves_at(case, &squares) {
+        if roots == Roots::All
+            && verdict.proof != Proof::Proved
+            && assembly.self_motion <= 1
+            && self.moves_at(case, &squares)
+        {
             knowledge.moving = Some(Moving { dimension: 1, is_all: false });
             self.trace(case, &squares, assembly);
             verdict = platform_verdict(assembly, roots, &knowledge);
@@ -177,12 +181,8 @@ impl PreparedPlatform {
         if asked.roots != Roots::All || !asked.is_needed || is_settled(assembly) {
             return PlatformKnowledge::default();
         }
-        let side = ExactSide {
-            platform: &self.exact,
-            squares,
-            incidence: self.solver.incidence(),
-            complex: asked.complex,
-        };
+        let side =
+            ExactSide { platform: &self.exact, squares, incidence: self.solver.incidence(), complex: asked.complex };
         let found = side.settle(&mut Search { solver: &self.solver, memory, assembly }, None);
         let near: Vec<Motion<f64>> = assembly.motion.iter().filter_map(|pose| pose_of(pose)).take(MOST_NEAR).collect();
         let proved = dependent.filter(|_| !near.is_empty());
@@ -207,7 +207,8 @@ impl PreparedPlatform {
             Some(through) if dimension == 1 => self.solver.curve_through(squares, &through),
             _ => vec![pose],
         };
-        *assembly = PlatformAssembly { route: Route::Dependent, self_motion: dimension, motion, ..PlatformAssembly::default() };
+        *assembly =
+            PlatformAssembly { route: Route::Dependent, self_motion: dimension, motion, ..PlatformAssembly::default() };
         Some(PlatformKnowledge { moving: Some(Moving { dimension, is_all: true }), ..PlatformKnowledge::default() })
     }
 

@@ -1,9 +1,10 @@
 //! Derivations: the verdict first, then equations, steps and polynomial; as text, JSON and Markdown.
 
-use super::export::{Line, export};
+use super::export::{Head, Line, ROUNDED, export};
 use super::json::{kind, number};
 use super::number::digits;
 use super::paper::{Paper, Style};
+use super::text::heading;
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::text::{Format, Names};
 use crate::catalogue::entry::{Entry, Kind};
@@ -243,7 +244,21 @@ pub fn system(entry: &Entry, case: usize, derivation: &Derivation, format: Forma
         };
         lines.push(Line::new(meaning, one));
     }
-    export(entry, case, &lines, &derivation.names, format)
+    export(&head(entry, case), &lines, &derivation.names, format)
+}
+
+/// What stands above a system of an entry.
+pub(super) fn head(entry: &Entry, number: usize) -> Head<'_> {
+    let case = number.checked_sub(1).and_then(|index| entry.cases.get(index));
+    // The title stands above.
+    let asked = case.and_then(|case| {
+        let heading = heading(entry, number, case).replace('\n', "; ");
+        heading.strip_prefix(&entry.title).map(|rest| rest.trim_start_matches([',', ';', ' ']).to_owned())
+    });
+    let asked = asked.filter(|asked| !asked.is_empty());
+    let rounded = entry.rounded.then(|| ROUNDED.to_owned());
+    let source = entry.source.as_ref().map(|source| source.key.as_str());
+    Head { title: &entry.title, source, case: number, remarks: asked.into_iter().chain(rounded).collect() }
 }
 
 /// The derivation as a paper, every displayed equation one of those that were used, and what came of putting solutions

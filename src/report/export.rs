@@ -4,7 +4,6 @@
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::Ring;
 use crate::algebra::text::{Format, Names};
-use crate::catalogue::entry::Entry;
 use crate::error::Result;
 use rug::Rational;
 
@@ -20,16 +19,32 @@ impl Line {
     }
 }
 
-/// A system in a language: title, source, the meaning of each polynomial and of each variable as comments, where the language has
+/// What stands above a system.
+pub(super) struct Head<'a> {
+    pub title: &'a str,
+    /// The key of the publication.
+    pub source: Option<&'a str>,
+    /// The number of the case in the file.
+    pub case: usize,
+    /// What was asked for and what else a reader has to know, a line each.
+    pub remarks: Vec<String>,
+}
+
+/// The remark on a system whose numbers are near those of the file.
+pub(super) const ROUNDED: &str =
+    "numbers without rational value or half-angle tangent are replaced by rationals nearby";
+
+/// A system in a language: title, source, remarks, the meaning of each polynomial and of each variable as comments, where the language has
 /// comments, then all polynomials, over the variables that occur.
 ///
 /// # Errors
 /// Where the language has no way to say it.
-pub(super) fn export(entry: &Entry, case: usize, lines: &[Line], names: &Names, format: Format) -> Result<String> {
+pub(super) fn export(head: &Head, lines: &[Line], names: &Names, format: Format) -> Result<String> {
     let occurs = |variable: &usize| lines.iter().any(|line| line.polynomial.degree(*variable) > 0);
     let used: Vec<usize> = (0..names.list().len()).filter(occurs).collect();
-    let mut text = vec![format!("{}, case {case}", entry.title)];
-    text.extend(entry.source.as_ref().map(|source| format!("source: {}", source.key)));
+    let mut text = vec![format!("{}, case {}", head.title, head.case)];
+    text.extend(head.source.map(|source| format!("source: {source}")));
+    text.extend(head.remarks.iter().cloned());
     text.push(format!("written by looproot {}; every polynomial is 0", env!("CARGO_PKG_VERSION")));
     text.extend(lines.iter().zip(1..).map(|(line, number)| format!("{number}: {}", line.meaning)));
     text.extend(used.iter().filter_map(|variable| {
@@ -45,6 +60,19 @@ pub(super) fn export(entry: &Entry, case: usize, lines: &[Line], names: &Names, 
     };
     let names = Names::given(used.iter().map(|&variable| &names.list()[variable]))?;
     Ok(comments + &format.system(&lines.iter().map(compact).collect::<Vec<_>>(), &names)?)
+}
+
+/// Names that every language has, with a remark on each name for which another one stands.
+///
+/// # Errors
+/// Never: `v1`, `v2`, ... are names.
+pub(super) fn plain_names(wanted: &[String]) -> Result<(Names, Vec<String>)> {
+    if let Ok(names) = Names::given(wanted) {
+        return Ok((names, Vec::new()));
+    }
+    let plain: Vec<String> = (1..=wanted.len()).map(|k| format!("v{k}")).collect();
+    let remarks = plain.iter().zip(wanted).map(|(plain, own)| format!("{plain} is {own}")).collect();
+    Ok((Names::given(&plain)?, remarks))
 }
 
 /// `c^2 + s^2 = 1` for every cosine with its sine, and what a half-angle tangent has to do with them, of the variables that occur.

@@ -1,6 +1,7 @@
 //! Derivations of linkages as text and as JSON.
 
 use super::document::units;
+use super::export::{Head, Line, ROUNDED, export, plain_names, relations};
 use super::json::number;
 use super::linkage::{asked, joint_variables};
 use super::model;
@@ -13,7 +14,8 @@ use crate::algebra::text::{Format, Names};
 use crate::algebra::univariate::Univariate;
 use crate::catalogue::{LinkageCase, LinkageFile};
 use crate::derivation::{Curve, GroupPolynomial, LinkageDerivation, Symbol, in_cosines};
-use crate::kinematics::linkage::{Gaussian, Linkage};
+use crate::error::Result;
+use crate::kinematics::linkage::{Accuracy, Gaussian, Linkage};
 use rug::{Integer, Rational};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -34,6 +36,9 @@ pub(super) fn univariate(polynomial: &Univariate<Integer>) -> Polynomial<Rationa
     let coefficients = polynomial.coefficients().iter().map(Rational::from).collect();
     Polynomial::from_univariate(0, &Univariate::new(coefficients))
 }
+
+/// What the letters of the unknowns stand for.
+const LETTERS: &str = "c and s are the cosine and the sine of the angle of a body, d is the displacement of a joint";
 
 /// The half-angle tangent of a body.
 pub(super) fn tangent(file: &LinkageFile, body: usize) -> String {
@@ -226,22 +231,27 @@ pub fn completed(file: &LinkageFile, case: usize, own: Value) -> Value {
 /// The closure equations with their names.
 fn cycles(file: &LinkageFile, derivation: &LinkageDerivation) -> Vec<(String, String)> {
     let names: Vec<String> = derivation.variables.iter().map(|one| symbol(file, *one)).collect();
+    let texts = derivation.equations.iter().map(|equation| written(equation, &names));
+    cycle_names(file, derivation).into_iter().zip(texts).collect()
+}
+
+/// The names of the closure equations.
+fn cycle_names(file: &LinkageFile, derivation: &LinkageDerivation) -> Vec<String> {
     let cycles = derivation.equations.len().saturating_sub(2 * derivation.gears.len()) / 2;
-    let equations = derivation.equations.iter().enumerate().map(|(k, equation)| {
+    let names = (0..derivation.equations.len()).map(|k| {
         let half = if k % 2 == 0 { "x" } else { "y" };
         let of = match (k / 2).checked_sub(cycles) {
             None => format!("cycle {}", k / 2 + 1),
             Some(gear) => format!("gears {}", file.linkage.joints[derivation.gears[gear]].name),
         };
-        (format!("{of}, {half}"), written(equation, &names))
+        format!("{of}, {half}")
     });
-    equations.collect()
+    names.collect()
 }
 
 /// The closure equations as a page, and the closure polynomial behind them.
 pub(super) fn page(file: &LinkageFile, derivation: &LinkageDerivation) -> (String, Option<String>) {
-    let mut text =
-        "# c and s are the cosine and the sine of the angle of a body, d is the displacement of a joint\n".to_owned();
+    let mut text = format!("# {LETTERS}\n");
     for (name, equation) in cycles(file, derivation) {
         let _ = write!(text, "\n{name}\n  {equation}\n");
     }
@@ -253,6 +263,49 @@ pub(super) fn page(file: &LinkageFile, derivation: &LinkageDerivation) -> (Strin
         format!("\nclosure polynomial of degree {degree} in {name}{further}: {}\n  {own}\n", meaning(file, best))
     });
     (text, last)
+}
+
+/// The closure polynomial of a body whose angle the equations have, where there is one: a body may turn with another one, after which the angle
+/// is named.
+fn in_equations(derivation: &LinkageDerivation) -> Option<&GroupPolynomial> {
+    let first = derivation.polynomials.first()?;
+    let is_there = |one: &&GroupPolynomial| {
+        let is_of_group = (one.group, one.against) == (first.group, first.against);
+        is_of_group && derivation.variables.contains(&Symbol::Cosine(one.body))
+    };
+    derivation.polynomials.iter().find(is_there).or(Some(first))
+}
+
+/// The closure equations and the closure polynomial of a case, its number counted from 1, in the language of another program.
+///
+/// # Errors
+/// Where the language has no way to say it.
+pub fn system(file: &LinkageFile, number: usize, derivation: &LinkageDerivation, format: Format) -> Result<String> {
+    let mut names: Vec<String> = derivation.variables.iter().map(|one| symbol(file, *one)).collect();
+    let mut lines: Vec<Line> = cycle_names(file, derivation)
+        .into_iter()
+        .zip(&derivation.equations)
+        .map(|(name, equation)| Line::new(format!("closure equation, {name}"), equation.clone()))
+        .collect();
+    let closing = in_equations(derivation).map(|best| {
+        names.push(tangent(file, best.body));
+        let degree = best.coefficients.degree().unwrap_or(0);
+        let coefficients = Univariate::new(best.coefficients.coefficients().iter().map(Rational::from).collect());
+        let last = format!("the closure polynomial, of degree {degree}: {}", meaning(file, best));
+        Line::new(last, Polynomial::from_univariate(names.len() - 1, &coefficients))
+    });
+    let (plain, renamed) = plain_names(&names)?;
+    lines.extend(closing);
+    // The relations go by the letters of names. The closure polynomial stands last.
+    let further = relations(&lines, &Names::given(&names).unwrap_or_else(|_| plain.clone()));
+    let before = derivation.equations.len();
+    lines.splice(before..before, further);
+    let case = &file.cases[number - 1];
+    let rounded = (file.accuracy(case) != Accuracy::Exact).then(|| ROUNDED.to_owned());
+    let remarks =
+        [asked(&file.linkage, &case.given), LETTERS.to_owned()].into_iter().chain(rounded).chain(renamed).collect();
+    let source = file.heading.source.as_ref().map(|source| source.key.as_str());
+    export(&Head { title: &file.heading.title, source, case: number, remarks }, &lines, &plain, format)
 }
 
 /// The derivation of a case, its number counted from 1, as one document.

@@ -58,18 +58,22 @@ pub fn verdict(file: &LinkageFile, found: &LinkageSymbolic) -> String {
         },
     );
     format!(
-        "degree {} in {input} and {} in {output}, {} in {}; {how}",
+        "degree {} in {input} and {} in {output}, {}{}; {how}",
         found.polynomial.degree(0),
         found.polynomial.degree(1),
         counted(found.polynomial.len(), "term"),
-        counted(found.symbols.len(), "symbol"),
+        if found.symbols.is_empty() {
+            String::new()
+        } else {
+            format!(" in {}", counted(found.symbols.len(), "symbol"))
+        },
     )
 }
 
 /// Writes what the symbols are, and which coordinates keep their numbers.
 fn symbols(text: &mut String, file: &LinkageFile, symbols: &[Coordinate], numbers: &[Coordinate]) {
     let linkage = &file.linkage;
-    text.push_str("\nSymbols: coordinates of points in their bodies\n");
+    text.push_str(if symbols.is_empty() { "\n" } else { "\nSymbols: coordinates of points in their bodies\n" });
     for one in symbols {
         let _ = writeln!(text, "  {} = {}, in the file {}", one.variable(linkage), one.name(linkage), one.value);
     }

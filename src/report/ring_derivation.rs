@@ -1,11 +1,17 @@
 //! Closure polynomials of linkages in space and on the sphere as text and as JSON.
 
+use super::export::{Head, Line, ROUNDED, export, plain_names};
 use super::linkage_derivation::{coefficients, insert_polynomial, rational, univariate, written};
 use super::number::counted;
 use super::table::paragraph;
 use super::{space, sphere};
-use crate::catalogue::{SpaceFile, SphereFile};
+use crate::algebra::polynomial::Polynomial;
+use crate::algebra::ring::Ring;
+use crate::algebra::text::Format;
+use crate::algebra::univariate::Univariate;
+use crate::catalogue::{Heading, SpaceFile, SphereFile};
 use crate::derivation::{RingDerivation, RingPolynomial, RingSymbolic, Unknown};
+use crate::error::Result;
 use crate::linkage::space::Symbol;
 use rug::Rational;
 use serde_json::{Value, json};
@@ -18,6 +24,9 @@ const LONGEST: usize = 600;
 pub struct Named<'f> {
     /// Title and case in one line.
     heading: String,
+    file: &'f Heading,
+    number: usize,
+    asked: String,
     /// The name of every joint and those of its bodies.
     joints: Vec<[&'f str; 3]>,
     /// Whether the value of a joint is a distance.
@@ -36,6 +45,9 @@ impl<'f> Named<'f> {
         let bodies: Vec<&str> = linkage.bodies.iter().map(|body| body.name.as_str()).collect();
         Self {
             heading: format!("{}, case {number}: {}", file.heading.title, space::asked(file, &case.given)),
+            file: &file.heading,
+            number,
+            asked: space::asked(file, &case.given),
             joints: linkage.joints.iter().map(|one| [&*one.name, bodies[one.of[0]], bodies[one.of[1]]]).collect(),
             distances: linkage.joints.iter().map(|one| one.is_distance() == Some(true)).collect(),
             bodies,
@@ -51,12 +63,21 @@ impl<'f> Named<'f> {
         let bodies: Vec<&str> = linkage.bodies.iter().map(|body| body.name.as_str()).collect();
         Self {
             heading: format!("{}, case {number}: {}", file.heading.title, sphere::asked(file, &case.given)),
+            file: &file.heading,
+            number,
+            asked: sphere::asked(file, &case.given),
             joints: linkage.joints.iter().map(|one| [&*one.name, bodies[one.of[0]], bodies[one.of[1]]]).collect(),
             distances: vec![false; linkage.joints.len()],
             bodies,
             is_rounded: !(file.exact && case.exact),
             complete: Box::new(move |own| sphere::completed(file, number, own)),
         }
+    }
+
+    /// Returns what stands above a system.
+    fn head(&self) -> Head<'f> {
+        let source = self.file.source.as_ref().map(|source| source.key.as_str());
+        Head { title: &self.file.title, source, case: self.number, remarks: vec![self.asked.clone()] }
     }
 
     /// Returns title and case in one line.
@@ -371,6 +392,40 @@ pub fn symbolic_json(named: &Named<'_>, found: &RingSymbolic) -> Value {
         "terms": found.polynomial.len(),
         "polynomial": { "variable": names[0], "coefficients": coefficients.collect::<Vec<String>>() },
     }))
+}
+
+/// The closure equations and the closure polynomial in the language of another program.
+///
+/// # Errors
+/// Where the language has no way to say it.
+pub fn system(named: &Named<'_>, derivation: &RingDerivation, format: Format) -> Result<String> {
+    let mut names: Vec<String> = derivation.symbols.iter().map(|one| named.symbol(*one)).collect();
+    let mut lines: Vec<Line> = (1..)
+        .zip(&derivation.equations)
+        .map(|(k, equation)| Line::new(format!("closure equation {k}"), equation.clone()))
+        .collect();
+    if let Some(best) = derivation.polynomials.first() {
+        let name = named.variable(best.unknown);
+        let degree = best.coefficients.degree().unwrap_or(0);
+        let place = names.iter().position(|known| *known == name).unwrap_or_else(|| {
+            names.push(name.clone());
+            names.len() - 1
+        });
+        let variable: Polynomial<Rational> = Polynomial::variable(place);
+        let [above, below] = &derivation.unknown;
+        let definition = variable.mul(below).sub(above);
+        if !definition.is_zero() {
+            lines.push(Line::new(format!("what {name} is in the other variables"), definition));
+        }
+        let coefficients = Univariate::new(best.coefficients.coefficients().iter().map(Rational::from).collect());
+        let last = format!("the closure polynomial, of degree {degree}: {}", named.meaning(best.unknown));
+        lines.push(Line::new(last, Polynomial::from_univariate(place, &coefficients)));
+    }
+    let (plain, renamed) = plain_names(&names)?;
+    let rounded = named.is_rounded.then(|| ROUNDED.to_owned());
+    let mut head = named.head();
+    head.remarks.extend([LETTERS.to_owned()].into_iter().chain(rounded).chain(renamed));
+    export(&head, &lines, &plain, format)
 }
 
 /// The equations of a case and the closure polynomial of its last group on a page of the atlas, and the latter by itself.

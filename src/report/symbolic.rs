@@ -1,6 +1,6 @@
 //! Derivations with symbols, as text and JSON.
 
-use super::derivation::unknowns;
+use super::derivation::{head, unknowns};
 use super::export::{Line, export, relations};
 use super::json::kind;
 use super::number::counted;
@@ -172,7 +172,7 @@ pub fn system(entry: &Entry, case: usize, symbolic: &Symbolic, format: Format) -
     }
     let relations = relations(&lines, names);
     lines.extend(relations);
-    export(entry, case, &lines, names, format)
+    export(&head(entry, case), &lines, names, format)
 }
 
 /// The derivation as a paper, every displayed equation one of those that were used, and what came of putting solutions

@@ -170,7 +170,7 @@ pub fn solution(entry: &Entry, number: usize, case: &Case, solution: &Solution, 
 }
 
 /// The title, and which of several cases this is.
-fn heading(entry: &Entry, number: usize, case: &Case) -> String {
+pub(super) fn heading(entry: &Entry, number: usize, case: &Case) -> String {
     let mut text = entry.title.clone();
     if entry.cases.len() > 1 {
         let _ = write!(text, ", {} {number} of {}", case_noun(entry), entry.cases.len());

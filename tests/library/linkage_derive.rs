@@ -308,6 +308,25 @@ fn a_slider_crank_has_its_offset_as_a_symbol() {
 }
 
 #[test]
+fn legs_of_given_lengths_are_inputs_beside_symbols() {
+    let Any::Linkage(file) = builtin_any("linkage/3rpr").unwrap() else { panic!("a linkage") };
+    let names = |names: &[&str]| -> Vec<String> { names.iter().map(|&name| name.to_owned()).collect() };
+    let given = &file.cases[0].given;
+    let best = derived(&file).polynomials.swap_remove(0);
+    for (wanted, input) in
+        [(vec!["L1"], "L1"), (vec!["L3"], "L3"), (vec!["plate.B1.x"], "L1"), (vec!["L2", "plate.B1.x"], "L2")]
+    {
+        let found = derive_linkage_with_symbols(&file.linkage, given, &names(&wanted), &Watch::none()).unwrap();
+        assert_eq!(file.linkage.joints[found.input].name, input);
+        // At the numbers of the file it is the closure polynomial.
+        assert!(found.agrees && !found.is_turn, "{wanted:?}");
+        assert_eq!(found.polynomial.degree(1) as usize, best.coefficients.degree().unwrap(), "{wanted:?}");
+    }
+    let two = derive_linkage_with_symbols(&file.linkage, given, &names(&["L1", "L2"]), &Watch::none()).unwrap_err();
+    assert!(two.to_string().contains("found the given joints L1 and L2"), "{two}");
+}
+
+#[test]
 fn unknown_symbols_and_too_many_are_refused() {
     let bodies = "frame = { A = [1, 2], D = [4, 5] }\ncrank = { A = [3, 1], B = [1, 2] }\n\
                   coupler = { B = 0, C = 8 }\nrocker = { D = 0, C = 3 }";

@@ -15,8 +15,8 @@ use rug::{Integer, Rational};
 
 /// Maximum number of symbols: each multiplies the number of derivations by four or more.
 const MOST_SYMBOLS: usize = 6;
-/// Maximum number of symbols of linkages with gears, whose relations are interpolated in the input, too, and each value takes a Gröbner basis.
-const MOST_GEARED: usize = 2;
+/// Maximum number of symbols of linkages with gears and legs of given lengths, whose relations are interpolated in the input, too.
+const MOST_BY_VALUES: usize = 2;
 
 /// A coordinate of a point in its body.
 #[derive(Clone, Debug, PartialEq)]
@@ -242,8 +242,8 @@ fn none() -> Error {
     Error::Unsupported(message.to_owned())
 }
 
-/// Derives the relation of the first given joint and the output, the other given joints held, with coordinates of points as symbols: those `wanted`, named as
-/// `crank.B.x`, else all of the joints concerned that are not zero.
+/// Derives the relation of a given joint, the first one unless another one is named among those `wanted`, and the output, the other given joints held,
+/// with coordinates of points as symbols: those `wanted`, named as `crank.B.x`, else all of the joints concerned that are not zero.
 ///
 /// # Errors
 /// As [`derive_linkage`]; [`Error::Unsupported`] without a given joint, for more than six symbols (two with gears), if there would be more than 100,000
@@ -254,13 +254,61 @@ pub fn derive_linkage_with_symbols(
     wanted: &[String],
     watch: &Watch<'_>,
 ) -> Result<LinkageSymbolic> {
-    let base = derive_linkage(linkage, given)?;
-    if !base.gears.is_empty() {
-        return geared(linkage, given, &base, wanted, watch);
+    let is_given =
+        |name: &&String| given.iter().filter_map(Given::joint).any(|joint| linkage.joints[joint].name == **name);
+    let (inputs, coordinates): (Vec<&String>, Vec<&String>) = wanted.iter().partition(is_given);
+    let place = match inputs[..] {
+        [] => 0,
+        [input] => {
+            let is_it = |one: &Given| one.joint().is_some_and(|joint| linkage.joints[joint].name == *input);
+            given.iter().position(is_it).unwrap_or(0)
+        }
+        [one, other, ..] => {
+            let message =
+                format!("found the given joints {one} and {other}, expected one of them, and coordinates of points");
+            return Err(Error::Invalid(message));
+        }
+    };
+    // The first one is the input, and the others are held.
+    let mut given = given.to_vec();
+    given[..].get_mut(..=place).into_iter().for_each(|first| first.rotate_right(1));
+    let base = derive_linkage(linkage, &given)?;
+    let coordinates = Wanted { names: coordinates.into_iter().cloned().collect(), all: inputs.is_empty() };
+    with_symbols(linkage, &given, base, &coordinates, watch)
+}
+
+/// The symbols that are asked for beside an input.
+struct Wanted {
+    names: Vec<String>,
+    /// Whether no name stands for all of them.
+    all: bool,
+}
+
+impl Wanted {
+    /// Returns the symbols and the other coordinates.
+    fn chosen(&self, linkage: &Linkage, joints: &[usize], most: usize) -> Result<(Vec<Coordinate>, Vec<Coordinate>)> {
+        let all = Coordinate::all(linkage, joints)?;
+        if self.names.is_empty() && !self.all {
+            return Ok((Vec::new(), all.into_iter().filter(|one| one.value != 0).collect()));
+        }
+        chosen(linkage, all, &self.names, most)
     }
-    let relation = base.relations.into_iter().next().flatten();
-    let (relation, own) = relation.zip(base.input_output).ok_or_else(none)?;
-    let (symbols, numbers) = chosen(linkage, Coordinate::all(linkage, &relation.joints)?, wanted, MOST_SYMBOLS)?;
+}
+
+/// Derives the relation of the first given joint.
+fn with_symbols(
+    linkage: &Linkage,
+    given: &[Given],
+    mut base: LinkageDerivation,
+    wanted: &Wanted,
+    watch: &Watch<'_>,
+) -> Result<LinkageSymbolic> {
+    let relation = if base.relations.is_empty() { None } else { base.relations.swap_remove(0) };
+    // Gears and legs of given lengths are in no relation of two rotations.
+    let Some((relation, own)) = relation.filter(|_| base.gears.is_empty()).zip(base.input_output.take()) else {
+        return by_values(linkage, given, &base, wanted, watch);
+    };
+    let (symbols, numbers) = wanted.chosen(linkage, &relation.joints, MOST_SYMBOLS)?;
     let agrees = |polynomial: &Polynomial<Int>| {
         let of_file = symbols.iter().enumerate().map(|(k, one)| (2 + k, Polynomial::constant(one.value.clone())));
         let rational = polynomial.map(|c| Some(Rational::from(c.to_integer())))?;
@@ -288,19 +336,19 @@ pub fn derive_linkage_with_symbols(
     })
 }
 
-/// Derives the relation of a linkage with gears, interpolated in the input and the symbols.
-fn geared(
+/// Derives the relation by closure polynomials at numbers, interpolated in the input and the symbols.
+fn by_values(
     linkage: &Linkage,
     given: &[Given],
     base: &LinkageDerivation,
-    wanted: &[String],
+    wanted: &Wanted,
     watch: &Watch<'_>,
 ) -> Result<LinkageSymbolic> {
     let (one, best) = given.first().zip(base.polynomials.first()).ok_or_else(none)?;
     let input = one.joint().ok_or_else(none)?;
     // A pair of gears is no point of its bodies.
     let joints: Vec<usize> = (0..linkage.joints.len()).filter(|joint| !linkage.joints[*joint].is_gear()).collect();
-    let (symbols, numbers) = chosen(linkage, Coordinate::all(linkage, &joints)?, wanted, MOST_GEARED)?;
+    let (symbols, numbers) = wanted.chosen(linkage, &joints, MOST_BY_VALUES)?;
     let (polynomial, agrees) = relation_with_symbols(linkage, given, base, &symbols, watch)?.ok_or_else(none)?;
     Ok(LinkageSymbolic {
         input,

@@ -47,8 +47,7 @@ impl OverconstrainedLoop {
         let standing: Option<Vec<Standing>> = found.families.iter().map(|family| standing(family, ladder)).collect();
         let Some(standing) = standing.filter(|standing| !standing.is_empty()) else { return Ok(found) };
         let is_rounded = self.is_rounded || !is_exact(case);
-        let question =
-            Question { chain: &self.chain, layout: &ladder.layout, case, limits: &self.limits, is_rounded };
+        let question = Question { chain: &self.chain, layout: &ladder.layout, case, limits: &self.limits, is_rounded };
         if let Some((modes, count)) = question.beside(&standing)? {
             let verdict = &mut found.verdict;
             verdict.complex = count;

@@ -46,7 +46,8 @@ pub enum Consistency {
 impl DependentLegs {
     /// Returns the legs that depend on others; `None` where none does.
     pub fn of(platform: &Platform<Rational>) -> Option<Self> {
-        let columns: Vec<Vec<Rational>> = (0..6).map(|leg| functions(&platform.base[leg], &platform.plate[leg])).collect();
+        let columns: Vec<Vec<Rational>> =
+            (0..6).map(|leg| functions(&platform.base[leg], &platform.plate[leg])).collect();
         let rows = (0..FUNCTIONS).map(|k| columns.iter().map(|column| column[k].clone()).collect()).collect();
         let echelon = Echelon::of(rows, 6);
         let redundant = echelon.free_columns();
@@ -97,7 +98,8 @@ impl DependentLegs {
         let spread = (0..TRIED).filter_map(|k| self.with_share(squares, k));
         near.chain(spread).find_map(|squares| {
             self.solver.solve_up_to(&squares, Roots::Real, None, memory, &mut assembly);
-            let proved = assembly.modes.iter().find(|mode| mode.real && mode.certificate.is_some() && mode.multiplicity == 1)?;
+            let proved =
+                assembly.modes.iter().find(|mode| mode.real && mode.certificate.is_some() && mode.multiplicity == 1)?;
             Some(std::array::from_fn(|k| if k < 4 { proved.quaternion[k].re } else { proved.position[k - 4].re }))
         })
     }
@@ -119,7 +121,8 @@ impl DependentLegs {
             let kept = (0..6).filter(|other| !self.redundant.contains(other));
             let (mut least, mut most) = (0.0_f64, f64::INFINITY);
             for other in kept {
-                let way = [&self.regular.base, &self.regular.plate].map(|points| distance(&points[*leg], &points[other]));
+                let way =
+                    [&self.regular.base, &self.regular.plate].map(|points| distance(&points[*leg], &points[other]));
                 let (length, way) = (nearest_f64(&squares[other]).sqrt(), way[0] + way[1]);
                 (least, most) = (least.max(length - way), most.min(length + way));
             }

@@ -57,7 +57,11 @@ fn legs_between_points_of_conics_with_the_same_parameters_move() {
     let (base, plate) = (on_a_conic(parameters, 5, 1), on_a_conic(parameters, 3, 0));
     let solution = solved(&base, &plate, &at_pose());
     let verdict = &solution.verdict;
-    assert_eq!((verdict.status, verdict.proof, verdict.self_motion), (Status::SelfMotion, Proof::Proved, 1), "{verdict:?}");
+    assert_eq!(
+        (verdict.status, verdict.proof, verdict.self_motion),
+        (Status::SelfMotion, Proof::Proved, 1),
+        "{verdict:?}"
+    );
     assert!(solution.modes.is_empty() && verdict.reason.contains("none is isolated"), "{}", verdict.reason);
     // Every sample of the family has the legs.
     let exact = Platform { base, plate };
@@ -90,7 +94,11 @@ fn a_curve_through_the_pose_of_the_file_is_proved_by_power_series() {
     let (base, plate) = (points(1), points(-1));
     let solution = solved(&base, &plate, &at_pose());
     let verdict = &solution.verdict;
-    assert_eq!((verdict.status, verdict.proof, verdict.self_motion), (Status::SelfMotion, Proof::Proved, 1), "{verdict:?}");
+    assert_eq!(
+        (verdict.status, verdict.proof, verdict.self_motion),
+        (Status::SelfMotion, Proof::Proved, 1),
+        "{verdict:?}"
+    );
     assert!(verdict.reason.contains("power series"), "{}", verdict.reason);
     // The legs alone do not say through which pose the curve goes.
     let squares = Platform { base: base.clone(), plate: plate.clone() }.legs_squared(&pose());

@@ -26,6 +26,44 @@ fn comments_say_what_everything_is() {
 }
 
 #[test]
+fn linkages_are_exported_with_what_their_variables_are() {
+    for (entry, wanted) in [
+        (
+            "linkage/3prr",
+            [
+                "A1 = -6.8 m, A2 = 17 m, A3 = 0.6 m",
+                "closure equation, cycle 1, x",
+                "the closure polynomial, of degree 6: t_rod1 is",
+                "cosine and sine: c_plate^2",
+            ],
+        ),
+        (
+            "linkage/3rps",
+            ["closure equation 6", "what t_A1 is in", "the closure polynomial, of degree 16", "P1 = 14.476582 m"],
+        ),
+        (
+            "linkage/spherical_3rrr",
+            ["closure equation 1", "the closure polynomial, of degree 8", "source: ", "on the sphere, of the axis"],
+        ),
+    ] {
+        for (name, format) in Format::NAMED {
+            let (code, out, err) = run(&["derive", entry, "--format", name]);
+            assert_eq!(code, 0, "{entry} {name}: {err}");
+            if format.comment("x").is_some() {
+                for wanted in wanted {
+                    assert!(out.contains(wanted), "{entry} {name}: {wanted}\n{out}");
+                }
+            }
+        }
+    }
+    let (code, _, err) = run(&["derive", "linkage/branched_tree", "--format", "sympy"]);
+    assert_eq!(code, 1);
+    assert!(err.contains("found a system without any polynomial"), "{err}");
+    let (code, _, err) = run(&["derive", "linkage/coupler_curve", "--trace", "coupler.P", "--symbolic", "--explain"]);
+    assert_eq!(code, 1, "{err}");
+}
+
+#[test]
 fn symbols_come_with_their_relations_and_translations() {
     let (code, out, _) = run(&["derive", "cccr_4_angle", "--symbolic", "--format", "text"]);
     assert_eq!(code, 0);

@@ -129,3 +129,33 @@ fn latex_sets_closure_polynomials_and_sympy_reads_them() {
         }
     }
 }
+
+/// Linkages in the plane, with slides and gears, in space and on the sphere.
+const LINKAGES: [&str; 6] = [
+    "linkage/3prr",
+    "linkage/inverted_slider_crank",
+    "linkage/geared_five_bar",
+    "linkage/stephenson_1",
+    "linkage/rssr_ssr",
+    "linkage/spherical_3rrr",
+];
+
+#[test]
+#[ignore = "needs Singular: cargo test --test program foreign:: -- --ignored"]
+fn closure_polynomials_of_linkages_lie_in_the_ideals_of_their_equations() {
+    for entry in LINKAGES {
+        let text = export(entry, "singular").replace("ring looproot = 0", "ring looproot = 32003");
+        // The closure polynomial stands last.
+        let count = text.lines().filter(|line| line.starts_with("poly f")).count();
+        let others: Vec<String> = (1..count).map(|k| format!("f{k}")).collect();
+        let script = format!(
+            "{text}ideal rest = std(ideal({}));\nprint(dim(rest));\nprint(reduce(f{count}, rest) == 0);\nquit;\n",
+            others.join(", ")
+        );
+        let mut singular = program("Singular", "LOOPROOT_SINGULAR");
+        singular.arg("-q");
+        let answer = talk(singular, &script);
+        let lines: Vec<&str> = answer.lines().filter(|line| !line.starts_with("//")).collect();
+        assert_eq!(lines, ["0", "1"], "{entry}: {answer}");
+    }
+}

@@ -206,7 +206,9 @@ fn in_space(options: &DeriveOptions, mechanism: &str, file: &SpaceFile) -> Resul
     }
     let case = &file.cases[index];
     let derivation = derive_in_space(&file.linkage, &case.given).map_err(place)?;
-    let written = if options.json {
+    let written = if let Some(format) = options.format {
+        ring::system(&named, &derivation, format)?
+    } else if options.json {
         format!("{}\n", ring::json(&named, &derivation))
     } else if options.quiet {
         ring::verdict(&named, &derivation) + "\n"

@@ -12,7 +12,7 @@ Examples:
 pub const DERIVE: &str = "\
 Examples:
   looproot derive puma560 --pose 1              the closure polynomial of a pose and its real roots
-  looproot derive rccc --symbolic               with symbols for the link parameters
+  looproot derive cccr_4_angle --symbolic       with symbols for the link parameters
   looproot derive general_7r --symbolic=a1      with one symbol, by interpolation
   looproot derive loop.toml --explain=latex     the derivation as a paper";
 

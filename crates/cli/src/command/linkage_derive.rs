@@ -97,7 +97,9 @@ pub fn run(options: &DeriveOptions, mechanism: &str, file: &LinkageFile) -> Resu
         let Some(derivation) = derived(options, &file.linkage, &case.given).map_err(in_place)? else {
             return Ok(Exit::Interrupted);
         };
-        let written = if options.json {
+        let written = if let Some(format) = options.format {
+            report::system(file, index + 1, &derivation, format)?
+        } else if options.json {
             format!("{}\n", report::json(file, index + 1, &derivation))
         } else if options.quiet {
             report::verdict(file, &derivation) + "\n"
@@ -169,8 +171,9 @@ fn masses(file: &LinkageFile) -> Result<Vec<(usize, Gaussian, Rational)>, Error>
 
 /// Refuses the options that linkages do not have.
 pub fn refuse(options: &DeriveOptions) -> Result<(), Error> {
+    let is_other = options.trace.is_some() || options.symbolic.is_some() || options.cognates;
     let found = [
-        (options.format.is_some(), "--format"),
+        (options.format.is_some() && is_other, "--format with --trace, --symbolic or --cognates"),
         (options.explain.is_some(), "--explain"),
         (options.transference, "--transference"),
         (options.by.is_some(), "--by"),

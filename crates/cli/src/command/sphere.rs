@@ -172,6 +172,10 @@ fn relation(
     // Without a given joint there is no closure polynomial, but a curve of assemblies.
     let derived = if case.given.is_empty() { None } else { derive_on_sphere(&file.linkage, &case.given).ok() };
     let Some(derived) = derived else {
+        if options.format.is_some() {
+            let message = "--format of a linkage on the sphere without a given joint, which has no closure polynomial";
+            return Err(Error::Unsupported(message.to_owned()).into());
+        }
         let found = transferred?;
         let written = if options.json {
             format!("{}\n", report::transfer_json(file, index + 1, &found))
@@ -187,7 +191,9 @@ fn relation(
         Some(found) => format!("{own}; {}", report::transfer_verdict(file, found)),
         None => own,
     };
-    let written = if options.json {
+    let written = if let Some(format) = options.format {
+        ring::system(&named, &derived, format)?
+    } else if options.json {
         let mut document = ring::json(&named, &derived);
         if let Some(found) = &found {
             document["transfer"] = report::transfer_json(file, index + 1, found)["transfer"].take();
