@@ -3,7 +3,7 @@
 use super::polynomial::{ClosurePolynomial, Eliminant, Meaning, Removed};
 use super::symbols::{Symbols, joint_labels};
 use super::true_roots::{self, Settled};
-use super::{Derivation, Equation, cuts, four_bar, triangle, two_sides};
+use super::{Derivation, Equation, cuts, four_bar, short_loop, triangle, two_sides};
 use crate::algebra::drawn::Drawn;
 use crate::algebra::univariate::Univariate;
 use crate::catalogue::entry::Case;
@@ -59,6 +59,9 @@ pub(super) fn derive(chain: &Chain, case: &Case) -> Result<Derivation> {
         let symbols = Symbols::single(chain, ss_dyad.indices[2], ss_dyad.variable);
         let eliminated = two_sides::ss_dyad(&symbols, &joint_labels(chain), &ss_dyad);
         return derivation(&symbols, eliminated, |found| found.map(|(k, eliminant)| (k, Settled::as_it_is(eliminant))));
+    }
+    if let Some(short) = short_loop::derive(chain, case)? {
+        return Ok(short);
     }
     let exact = exact(chain, case)?;
     // With six unknown rotations, or five and a translation, the ring takes as long as the elimination.

@@ -20,6 +20,7 @@ mod pose;
 mod ring_curve;
 mod ring_symbolic;
 mod ring_trace;
+mod short_loop;
 mod sphere;
 mod substitution;
 mod surface;

@@ -9,7 +9,7 @@ use crate::algebra::text::{Format, Names};
 use crate::algebra::univariate::Univariate;
 use crate::kinematics::closed_loop::Variable;
 use crate::sweep::{Cell, CellMap, Cells, Column, Zero};
-use crate::verdict::Proof;
+use crate::verdict::{Code, Proof};
 use rug::{Integer, Rational};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -25,13 +25,19 @@ pub fn verdict(cells: &Cells) -> String {
     modes.dedup();
     let modes: Vec<String> = modes.iter().map(ToString::to_string).collect();
     format!(
-        "{}: {} with {} real modes, {}; {}",
+        "{}: {} with {} {}, {}; {}",
         cells.parameter,
         counted(cells.cells.len(), "cell"),
         modes.join(", "),
+        what_is_counted(cells),
         counted(cells.zeros.len(), "zero"),
         certainty(cells.verdict.proof)
     )
+}
+
+/// What the numbers of cells count: a root of the closure polynomial may have several real modes, or none.
+fn what_is_counted(cells: &Cells) -> &'static str {
+    if cells.verdict.code == Code::CellsNotMatched { "real roots" } else { "real modes" }
 }
 
 fn certainty(proof: Proof) -> &'static str {
@@ -107,7 +113,7 @@ pub fn text(cells: &Cells) -> String {
     let parameter = format!("{} [{}]", cells.parameter, unit(cells.kind));
     if !cells.zeros.is_empty() {
         text.push_str("\nZeros\n");
-        let mut table = Columns::new(&[parameter.as_str(), "order", "real modes", "what", s], &["what", s]);
+        let mut table = Columns::new(&[parameter.as_str(), "order", what_is_counted(cells), "what", s], &["what", s]);
         for zero in &cells.zeros {
             let [before, behind] = zero.modes;
             let order = if zero.order > 0 { zero.order.to_string() } else { "-".to_owned() };
@@ -118,7 +124,7 @@ pub fn text(cells: &Cells) -> String {
         text.push_str(&table.text());
     }
     text.push_str("\nCells\n");
-    let header = ["from", "to", "real modes", "sample", s, "solver"];
+    let header = ["from", "to", what_is_counted(cells), "sample", s, "solver"];
     let mut table = Columns::new(&header, &[s]);
     for cell in &cells.cells {
         let end = |x: Option<f64>, infinite: &str| {

@@ -77,3 +77,67 @@ fn families_of_six_joints_have_closure_polynomials() {
         println!("{name}: {:?}", derived(name));
     }
 }
+
+/// Loops with translations, and those whose cuts give no relation: the ring of the closure equations at the input.
+#[test]
+fn loops_with_translations_have_closure_polynomials_at_their_inputs() {
+    let oldham = r#"
+        [mechanism]
+        kind = "loop"
+        convention = "screws"
+        joints = [
+            { type = "R", axis = [0, 0, 1], point = [0, 0, 0] },
+            { type = "P", axis = [1, 0, 0] },
+            { type = "P", axis = [0, 1, 0] },
+            { type = "R", axis = [0, 0, 1], point = [1, 0, 0] },
+        ]
+        [[input]]
+        joint = 1
+        tan_half = "1/5""#;
+    let Any::Entry(oldham) = any_from_text(oldham, "x.toml", Format::Toml, &Options::default()).unwrap() else {
+        panic!("a loop")
+    };
+    for entry in [*oldham, entry("rrcrp_a"), entry("rrcrp_b")] {
+        let mechanism = Mechanism::prepare(&entry).unwrap();
+        for case in &entry.cases {
+            let derivation = derive_any(&entry, case).unwrap();
+            let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
+            let solution = mechanism.solve(case, Roots::All, &mut workspace, &mut assembly).unwrap();
+            let polynomial = derivation.polynomial.as_ref().unwrap();
+            let (unknown, _) = derivation.unknown(entry.chain().unwrap()).unwrap();
+            assert!(
+                derivation.proved && polynomial.degree() + polynomial.at_pi == solution.verdict.complex,
+                "{}",
+                entry.title
+            );
+            assert_eq!(polynomial.roots.len(), solution.verdict.real, "{}", entry.title);
+            for mode in solution.modes.iter().filter(|mode| mode.real) {
+                let value = mode.q[unknown].re;
+                let is_root = |root: f64| (root - value).abs() < 1e-9 || (root - (value / 2.0).tan()).abs() < 1e-9;
+                assert!(polynomial.roots.iter().any(|root| is_root(root.value)), "{}: {value}", entry.title);
+            }
+        }
+    }
+}
+
+/// Both lifted configurations of a Sarrus linkage are listed beside the family of a folded leg; a third of a degree off, with links of
+/// different lengths, no leg can be folded.
+#[test]
+fn isolated_solutions_beside_a_family_are_listed() {
+    let entry = entry("sarrus");
+    let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
+    let mechanism = Mechanism::prepare(&entry).unwrap();
+    let solution = mechanism.solve(&entry.cases[0], Roots::All, &mut workspace, &mut assembly).unwrap();
+    let verdict = &solution.verdict;
+    assert_eq!((verdict.status, verdict.proof, verdict.self_motion), (Status::SelfMotion, Proof::Proved, 1));
+    assert_eq!((verdict.real, verdict.complex, verdict.certified), (2, 2, 2));
+    assert_eq!(solution.families.len(), 1);
+    assert_eq!(solution.families[0].moving, [3, 5]);
+    // Leg 2 stands at 45 degrees plus and minus the same angle: the height of the other one is 2 L cos(beta).
+    let beta = 0.5_f64.atan() - 2.0 * 0.2_f64.atan();
+    let away = (2.0 * 1.25_f64.sqrt() * beta.cos() / 8.0_f64.sqrt()).acos();
+    for (mode, sign) in solution.modes.iter().zip([-1.0, 1.0]) {
+        let expected = std::f64::consts::FRAC_PI_4 + sign * away;
+        assert!((mode.q[3].re - expected).abs() < 1e-12 && (mode.q[5].re - expected).abs() < 1e-12, "{:?}", mode.q);
+    }
+}

@@ -15,5 +15,8 @@ mod outcome;
 pub(crate) mod roots;
 mod ss_dyad;
 
+pub(crate) use cycle::Cycle;
+pub(crate) use equations::System;
+
 pub(super) use answer::{Answer, Question, Standing};
 pub(super) use ss_dyad::SsDyadQuestion;
