@@ -1,5 +1,6 @@
 """Texts of files as documents: nothing may be cut, and no key may stand twice."""
 import json
+import math
 import tomllib
 
 from quantities import expect
@@ -21,6 +22,12 @@ def document_of(path):
 def distinct(pairs):
     expect(len(dict(pairs)) == len(pairs), pairs, "each key of an object once")
     return dict(pairs)
+
+
+def finite(text):
+    """A number of an object that is no text and no whole number; none is NaN or infinite."""
+    expect(math.isfinite(float(text)), text, "a number")
+    return float(text)
 
 
 def as_texts(value):

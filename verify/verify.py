@@ -14,7 +14,7 @@ from closures import SLIDE, THREE_JOINTS, Platform, proved_modes
 from conditions import four_joints
 from curve import curve
 from distance import distance
-from documents import distinct
+from documents import distinct, finite
 from files import is_about
 from geometry import geometry
 from kernel import kernel
@@ -101,7 +101,8 @@ def certificates(path):
     with open(path, encoding="utf-8") as file:
         text = file.read(LARGEST + 1)
     expect(len(text) <= LARGEST, "more", f"a file of at most {LARGEST} characters")
-    decoder, space, at = json.JSONDecoder(object_pairs_hook=distinct), re.compile(r"\s*"), 0
+    decoder = json.JSONDecoder(object_pairs_hook=distinct, parse_float=finite, parse_constant=finite)
+    space, at = re.compile(r"\s*"), 0
     while (at := space.match(text, at).end()) < len(text):
         certificate, at = decoder.raw_decode(text, at)
         yield certificate

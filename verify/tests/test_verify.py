@@ -465,6 +465,8 @@ BROKEN = {
     "an exponent": lambda text: re.sub(r'"radius":"[^"]*"', '"radius":"1e999999999"', text, count=1),
     "an exponent without quotes": lambda text: re.sub(r'"radius":"[^"]*"', '"radius":1e999999999', text, count=1),
     "NaN": lambda text: re.sub(r'"radius":"[^"]*"', '"radius":NaN', text, count=1),
+    "NaN in the claim": lambda text: text.replace('"complex":8', '"complex":NaN', 1),
+    "an exponent in the claim": lambda text: text.replace('"complex":8', '"complex":1e999999999', 1),
     "digits in a text": lambda text: re.sub(r'"radius":"[^"]*"', '"radius":"' + "1" * 1_000_000 + '"', text, count=1),
     "trailing garbage": lambda text: text.strip() + "garbage\n",
     "deep nesting": lambda text: "[" * 1_000_000,
