@@ -64,16 +64,17 @@ def rank(equations, chosen):
     """The rank, modulo the prime, of all equations times monomials of which all monomials are among the chosen ones."""
     places, rows = {own: at for at, own in enumerate(chosen)}, []
     for equation in equations:
-        first = equation[0][0]
+        first, values = equation[0][0], [value for _, value in equation]
         for own in chosen:
             by = [x - y for x, y in zip(own, first)]
             at = [places.get(tuple(map(int.__add__, by, term))) for term, _ in equation]
             if None not in at:
-                row = [0] * len(chosen)
-                for place, (_, value) in zip(at, equation):
-                    row[place] = int(value)
-                rows.append(row)
-    return nmod_mat(rows, PRIME).rank() if rows else 0
+                rows.append(zip(at, values))
+    table = nmod_mat(len(rows), len(chosen), PRIME)  # filled in place: lists of all its zeros would take more memory than it
+    for k, row in enumerate(rows):
+        for place, value in row:
+            table[k, place] = value
+    return table.rank()
 
 
 def are_independent(system, modes, chosen):
