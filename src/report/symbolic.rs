@@ -69,7 +69,7 @@ pub fn text(symbolic: &Symbolic) -> String {
         if compact.len() <= TWO_PAGES {
             let _ = writeln!(text, "  {compact}");
         } else {
-            let _ = writeln!(text, "  {} in the names below: --json", counted(displayed.compact.len(), "term"));
+            let _ = writeln!(text, "  {}, too long for this page: --json", counted(displayed.compact.len(), "term"));
         }
         let _ = writeln!(text, "  its coefficients, without the names: --json, --format text and others");
     }

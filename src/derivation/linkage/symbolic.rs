@@ -52,19 +52,15 @@ impl Coordinate {
         self.text(linkage, '_')
     }
 
-    /// Returns the coordinates of all points at which some joints are.
-    ///
-    /// # Errors
-    /// [`Error::Unsupported`] where two points of a body are at one place.
-    pub fn all(linkage: &Linkage, joints: &[usize]) -> Result<Vec<Self>> {
+    /// Returns the coordinates of all points at which some joints are, without those of bodies that have another point at the same place.
+    #[must_use]
+    pub fn all(linkage: &Linkage, joints: &[usize]) -> Vec<Self> {
         Self::with_point(linkage, joints, None)
     }
 
-    /// Returns the coordinates of all points at which some joints are, and of another point: its body, and its number there.
-    ///
-    /// # Errors
-    /// As [`Self::all`].
-    pub fn with_point(linkage: &Linkage, joints: &[usize], other: Option<(usize, usize)>) -> Result<Vec<Self>> {
+    /// As [`Self::all`], with those of another point: its body, and its number there.
+    #[must_use]
+    pub fn with_point(linkage: &Linkage, joints: &[usize], other: Option<(usize, usize)>) -> Vec<Self> {
         let mut list = Vec::new();
         for (body, own) in linkage.bodies.iter().enumerate() {
             for (point, (name, place)) in own.points.iter().enumerate() {
@@ -77,19 +73,16 @@ impl Coordinate {
                 if ends.is_empty() && other != Some((body, point)) {
                     continue;
                 }
-                if let Some((other, _)) = own.points.iter().find(|(other, at)| other != name && at == place) {
-                    let message = format!(
-                        "the points {other} and {name} of {} are at one place, so that their coordinates are no separate symbols",
-                        own.name
-                    );
-                    return Err(Error::Unsupported(message));
+                // The coordinates of two points at one place are no separate symbols.
+                if own.points.iter().any(|(other, at)| other != name && at == place) {
+                    continue;
                 }
                 for (axis, value) in [&place.re, &place.im].into_iter().enumerate() {
                     list.push(Self { body, point, axis, value: value.clone(), ends: ends.clone() });
                 }
             }
         }
-        Ok(list)
+        list
     }
 
     /// Replaces it by another number, metres.
@@ -287,7 +280,7 @@ struct Wanted {
 impl Wanted {
     /// Returns the symbols and the other coordinates.
     fn chosen(&self, linkage: &Linkage, joints: &[usize], most: usize) -> Result<(Vec<Coordinate>, Vec<Coordinate>)> {
-        let all = Coordinate::all(linkage, joints)?;
+        let all = Coordinate::all(linkage, joints);
         if self.names.is_empty() && !self.all {
             return Ok((Vec::new(), all.into_iter().filter(|one| one.value != 0).collect()));
         }

@@ -224,7 +224,7 @@ pub fn trace_with_symbols(
     let place: Gaussian = linkage.bodies[body].points[point].1.clone();
     let group = mover(linkage, given, body)?;
     let curve = trace(linkage, given, body, &place, watch)?;
-    let all = Coordinate::with_point(linkage, &group.joints, Some((body, point)))?;
+    let all = Coordinate::with_point(linkage, &group.joints, Some((body, point)));
     let (symbols, numbers) = chosen(linkage, all, wanted, MOST_SYMBOLS)?;
     let points = Places { linkage, symbols: &symbols };
     let direct = ends(linkage, &group.joints, body).filter(|_| held(linkage, given).is_ok_and(<[Given]>::is_empty));

@@ -63,6 +63,9 @@ impl Setting {
         let one = |name: &String| {
             all.iter().find(|one| one.name == *name).cloned().ok_or_else(|| {
                 let known: Vec<&str> = all.iter().map(|one| one.name.as_str()).collect();
+                if known.is_empty() {
+                    return Error::Unsupported(format!("the symbol {name}, as axes given by screws are no parameters"));
+                }
                 Error::Invalid(format!("found the symbol {name}, expected some of {}", known.join(", ")))
             })
         };

@@ -127,7 +127,7 @@ impl LinkageCase {
         self.given.iter().position(is_named)
     }
 
-    fn coordinates(&self) -> Result<Vec<Coordinate>> {
+    fn coordinates(&self) -> Vec<Coordinate> {
         Coordinate::all(&self.linkage, &(0..self.linkage.joints.len()).collect::<Vec<_>>())
     }
 }
@@ -157,7 +157,7 @@ impl Subject for LinkageCase {
             };
             return Ok(Parameter { name: name.to_owned(), variable, kind, value });
         }
-        let all = self.coordinates()?;
+        let all = self.coordinates();
         let found = all.iter().find(|one| one.name(&self.linkage) == name).ok_or_else(|| {
             let joints =
                 self.given.iter().filter_map(Given::joint).map(|joint| self.linkage.joints[joint].name.clone());
@@ -174,9 +174,7 @@ impl Subject for LinkageCase {
             if let Some(own) = self.given[place].at(&self.linkage, value) {
                 other.given[place] = own;
             }
-        } else if let Ok(all) = self.coordinates()
-            && let Some(own) = all.iter().find(|one| one.name(&self.linkage) == parameter.name)
-        {
+        } else if let Some(own) = self.coordinates().iter().find(|one| one.name(&self.linkage) == parameter.name) {
             own.put(&mut other.linkage, value);
         }
         other

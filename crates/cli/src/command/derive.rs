@@ -2,7 +2,7 @@
 
 use super::arguments::{CaseOptions, DeriveOptions};
 use super::bless;
-use super::certificates::Certificates;
+use super::certificates::{Certificates, not_covered};
 use super::discriminant::{self, Asked};
 use super::exit::{Exit, Fault, unexpected};
 use super::output::Output;
@@ -47,20 +47,28 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
     let read = Options { chains, ..options.read.options() };
     let entry = match load_solvable(mechanism, &read)? {
         Any::Entry(entry) if !options.cognates => *entry,
-        Any::Linkage(_) | Any::Sphere(_) if options.certificate.is_some() => return Err(without_certificate()),
-        Any::Linkage(file) => return super::linkage_derive::run(options, mechanism, &file),
+        Any::Linkage(file) => {
+            not_covered(options.certificate.as_ref(), "closure polynomials of linkages");
+            return super::linkage_derive::run(options, mechanism, &file);
+        }
         _ if options.cognates => {
             let message = "found --cognates, expected it for a four-bar in the plane";
             return Err(Error::Invalid(message.to_owned()).into());
         }
-        Any::Sphere(file) => return super::sphere::derive(options, mechanism, &file),
+        Any::Sphere(file) => {
+            not_covered(options.certificate.as_ref(), "closure polynomials of linkages");
+            return super::sphere::derive(options, mechanism, &file);
+        }
         Any::Space(file) => match platform_of(options, mechanism, &file)? {
             Some(entry) => {
                 // The case of the linkage was chosen before.
                 let asked = CaseOptions { input: None, ..options.asked.clone() };
                 return of_entry(options, &asked, mechanism, entry);
             }
-            None => return in_space(options, mechanism, &file),
+            None => {
+                not_covered(options.certificate.as_ref(), "closure polynomials of linkages");
+                return in_space(options, mechanism, &file);
+            }
         },
         other => return Err(unexpected(mechanism, other.kind(), "an arm, a loop, a platform or a linkage")),
     };
@@ -140,7 +148,8 @@ fn of_entry(options: &DeriveOptions, asked: &CaseOptions, mechanism: &str, mut e
         } else {
             text(&derivation)
         };
-        let is_overconstrained = matches!(&entry.design, Design::Loop(chain) if chain.freedoms() < 7);
+        let unknowns = 6 + case.input.len();
+        let is_overconstrained = matches!(&entry.design, Design::Loop(chain) if chain.freedoms() < unknowns);
         let exit = match exit(&derivation) {
             // Isolated configurations need not be roots.
             Exit::Unreachable if is_overconstrained => Exit::NotProved,
@@ -251,11 +260,6 @@ pub fn exit_of_ring(derivation: &RingDerivation, is_exact: bool) -> Exit {
     }
 }
 
-fn without_certificate() -> Fault {
-    let message = "found --certificate with a linkage, expected an arm or a loop: linkages have no certificate yet";
-    Error::Invalid(message.to_owned()).into()
-}
-
 /// Derives the closure polynomial by one elimination.
 fn by(
     options: &DeriveOptions,
@@ -322,7 +326,8 @@ pub fn document(mut value: Value, entry: &Entry) -> String {
 fn exit(derivation: &Derivation) -> Exit {
     match &derivation.polynomial {
         None => Exit::NotProved,
-        Some(_) if !derivation.proved => Exit::NotProved,
+        // A root may belong to a self-motion.
+        Some(_) if !derivation.proved || !derivation.finite => Exit::NotProved,
         Some(polynomial) if polynomial.roots.is_empty() && polynomial.at_pi == 0 => Exit::Unreachable,
         Some(_) => Exit::Complete,
     }

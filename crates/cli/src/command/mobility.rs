@@ -1,12 +1,11 @@
 //! `looproot mobility`
 
 use super::arguments::MobilityOptions;
-use super::certificates::Certificates;
+use super::certificates::{Certificates, not_covered};
 use super::exit::{Exit, Fault, unexpected};
 use super::output::Output;
 use super::seed::plant;
 use looproot::internal::catalogue::{Any, Chains, FrameworkFile, Options, load_any};
-use looproot::internal::error::Error;
 use looproot::internal::mobility::{Mobility, mobility};
 use looproot::internal::report::document::complete;
 use looproot::internal::report::framework as report;
@@ -18,16 +17,12 @@ pub fn run(options: &MobilityOptions) -> Result<Exit, Fault> {
     plant(options.drawn.seed);
     let entry = match load_any(&options.mechanism, &Options { chains: Chains::Any, ..options.read.options() })? {
         Any::Entry(entry) => entry,
-        Any::Framework(_) if options.certificate.is_some() => {
-            let message = "found --certificate with a framework, expected a loop: frameworks have no certificate yet";
-            return Err(Error::Invalid(message.to_owned()).into());
-        }
-        Any::Framework(file) => return of_framework(options, &file),
-        Any::Linkage(_) | Any::Sphere(_) | Any::Space(_) if options.certificate.is_some() => {
-            let message = "found --certificate with a linkage, expected a loop: linkages have no certificate yet";
-            return Err(Error::Invalid(message.to_owned()).into());
+        Any::Framework(file) => {
+            not_covered(options.certificate.as_ref(), "frameworks");
+            return of_framework(options, &file);
         }
         other => {
+            not_covered(options.certificate.as_ref(), "motions of linkages");
             let Some(asked) = linkage_mobility::ask(&other, &options.mechanism) else {
                 let expected = "a loop, an arm, a platform, a linkage or a framework";
                 return Err(unexpected(&options.mechanism, other.kind(), expected));

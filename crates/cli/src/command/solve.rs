@@ -57,7 +57,10 @@ pub fn run_to(options: &SolveOptions, open: impl FnOnce() -> Result<Output, Faul
         Some(kept) => (kept.entry, Some(kept.prepared)),
         None => match load_solvable(&options.mechanism, &read)? {
             Any::Entry(entry) => (*entry, None),
-            Any::Calculus(file) => return calculus::run(options, &file, open),
+            Any::Calculus(file) => {
+                not_covered(options.certificate.as_ref(), "displacements, lines, gears and motions");
+                return calculus::run(options, &file, open);
+            }
             Any::Linkage(file) => return super::linkage::run(options, &file, open()?),
             Any::Sphere(file) => {
                 not_covered(options.certificate.as_ref(), "linkages on the sphere");
