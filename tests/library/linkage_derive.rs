@@ -309,7 +309,7 @@ fn a_slider_crank_has_its_offset_as_a_symbol() {
 
 #[test]
 fn legs_of_given_lengths_are_inputs_beside_symbols() {
-    let Any::Linkage(file) = builtin_any("linkage/3rpr").unwrap() else { panic!("a linkage") };
+    let Any::Linkage(file) = builtin_any("linkage/3rpr", &Options::default()).unwrap() else { panic!("a linkage") };
     let names = |names: &[&str]| -> Vec<String> { names.iter().map(|&name| name.to_owned()).collect() };
     let given = &file.cases[0].given;
     let best = derived(&file).polynomials.swap_remove(0);

@@ -59,7 +59,7 @@ impl DependentLegs {
             let size = [&platform.base, &platform.plate].map(extent);
             let size = if size[0] > size[1] { &size[0] } else { &size[1] };
             let moved = |point: &Vector<Rational>, by: [i32; 3]| {
-                std::array::from_fn(|k| Rational::from(size * Rational::from((by[k], 10))) + &point[k])
+                std::array::from_fn(|k| size * Rational::from((by[k], 10)) + &point[k])
             };
             regular.base[*leg] = moved(&platform.base[*leg], base);
             regular.plate[*leg] = moved(&platform.plate[*leg], plate);

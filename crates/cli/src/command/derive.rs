@@ -59,17 +59,15 @@ pub fn run(options: &DeriveOptions) -> Result<Exit, Fault> {
             not_covered(options.certificate.as_ref(), "closure polynomials of linkages");
             return super::sphere::derive(options, mechanism, &file);
         }
-        Any::Space(file) => match platform_of(options, mechanism, &file)? {
-            Some(entry) => {
+        Any::Space(file) => {
+            if let Some(entry) = platform_of(options, mechanism, &file)? {
                 // The case of the linkage was chosen before.
                 let asked = CaseOptions { input: None, ..options.asked.clone() };
                 return of_entry(options, &asked, mechanism, entry);
             }
-            None => {
-                not_covered(options.certificate.as_ref(), "closure polynomials of linkages");
-                return in_space(options, mechanism, &file);
-            }
-        },
+            not_covered(options.certificate.as_ref(), "closure polynomials of linkages");
+            return in_space(options, mechanism, &file);
+        }
         other => return Err(unexpected(mechanism, other.kind(), "an arm, a loop, a platform or a linkage")),
     };
     if let Some(asked) = &options.trace {

@@ -174,7 +174,7 @@ fn relation(
     let Some(derived) = derived else {
         if options.format.is_some() {
             let message = "--format of a linkage on the sphere without a given joint, which has no closure polynomial";
-            return Err(Error::Unsupported(message.to_owned()).into());
+            return Err(Error::Unsupported(message.to_owned()));
         }
         let found = transferred?;
         let written = if options.json {
