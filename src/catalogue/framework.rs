@@ -219,7 +219,7 @@ fn squares(scope: &Scope<'_>, table: &Table<'_>, framework: &Framework<Rational>
     let mut squares = framework.squares();
     for (square, item) in squares.iter_mut().zip(items) {
         let number = if key == "lengths" {
-            scope.length(item, key)?
+            scope.rooted(item, key)?
         } else {
             let number = scope.number(item, Quantity::Ratio, key)?;
             let unit = Rational::from(scope.reading.length.square_ref());

@@ -101,7 +101,7 @@ fn legs(scope: &Scope<'_>, table: &Table<'_>, keys: [&str; 2], place: &str) -> R
     let nodes = scope.list(node, key)?;
     let mut squares = Vec::new();
     for (index, item) in nodes.iter().enumerate() {
-        let number = if key == lengths { scope.length(item, key)? } else { square(scope, item, key)? };
+        let number = if key == lengths { scope.rooted(item, key)? } else { square(scope, item, key)? };
         if *number.rational() < 0 {
             let (leg, found) = (index + 1, number.to_f64());
             let what = if key == lengths { "length" } else { "squared length" };

@@ -147,6 +147,14 @@ impl<'a> Scope<'a> {
         self.number(node, Quantity::Length, what)
     }
 
+    /// Reads a length whose square is wanted, such as `sqrt(5)`: it counts as rounded only if its square is irrational, too.
+    pub(super) fn rooted(&self, node: &Node, what: &str) -> Result<Number> {
+        let own = Scope::new(self.path, self.reading.clone());
+        let number = own.length(node, what)?;
+        self.note(number.squared().is_exact());
+        Ok(number)
+    }
+
     pub(super) fn angle(&self, node: &Node, what: &str) -> Result<Angle> {
         let text = self.written(node, what, "an angle")?;
         let angle = self.placed(Angle::parse(text, &self.reading), node, what)?;

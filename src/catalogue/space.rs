@@ -179,14 +179,9 @@ fn point(scope: &Scope<'_>, linkage: &SpaceLinkage, body: usize, name: &str, lin
 
 /// Reads a number whose square is wanted, such as a length `sqrt(5)`: the number, its square, and whether that is exact.
 fn squared(scope: &Scope<'_>, node: &Node, what: &str) -> Result<(Number, Rational, bool)> {
-    // A root counts as rounded only if its square is irrational, too.
-    let own = Scope::new(scope.path, scope.reading.clone());
-    let number = own.length(node, what)?;
+    let number = scope.rooted(node, what)?;
     let square = number.squared();
-    let whole = square.closed().and_then(|closed| closed.as_rational());
-    let exact = whole.is_some();
-    scope.note(exact);
-    Ok((number, whole.unwrap_or_else(|| square.rational().clone()), exact))
+    Ok((number, square.rational().clone(), square.is_exact()))
 }
 
 fn joint(scope: &Scope<'_>, linkage: &SpaceLinkage, node: &Node) -> Result<SpaceJoint> {
@@ -342,9 +337,7 @@ fn given(linkage: &SpaceLinkage, joint: usize, value: &InputValue, line: usize) 
         }
         (SpacePair::Leg | SpacePair::UniversalLeg(_), InputValue::Distance(distance)) => {
             let square = distance.squared();
-            let whole = square.closed().and_then(|closed| closed.as_rational());
-            let exact = whole.is_some();
-            (Known::Square(whole.unwrap_or_else(|| square.rational().clone())), distance.to_f64(), exact)
+            (Known::Square(square.rational().clone()), distance.to_f64(), square.is_exact())
         }
         (SpacePair::Revolute(_) | SpacePair::Prismatic(_) | SpacePair::Leg | SpacePair::UniversalLeg(_), _) => {
             let wanted = if own.is_distance() == Some(true) { "a distance" } else { "an angle" };
@@ -367,8 +360,9 @@ fn given(linkage: &SpaceLinkage, joint: usize, value: &InputValue, line: usize) 
 
 /// A distance in parts of a vector with this square, and whether that is exact.
 fn part_of(distance: &Number, square: &Rational) -> (Rational, bool) {
-    if let Some(whole) = distance.squared().closed().and_then(|closed| closed.as_rational()) {
-        let (part, exact) = root(&Rational::from(&whole / square));
+    let own = distance.squared();
+    if own.is_exact() {
+        let (part, exact) = root(&Rational::from(own.rational() / square));
         if exact {
             return (if distance.to_f64() < 0.0 { -part } else { part }, true);
         }

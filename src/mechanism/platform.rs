@@ -36,6 +36,8 @@ struct Asked {
     complex: bool,
     /// Whether the list has to be complete: it is known to have no real pose otherwise.
     is_needed: bool,
+    /// Whether numbers of the file were rounded.
+    is_rounded: bool,
 }
 
 /// A platform, prepared.
@@ -124,7 +126,8 @@ impl PreparedPlatform {
         let (memory, assembly) = (&mut workspace.platform, &mut workspace.platform_assembly);
         let start = Instant::now();
         let short = self.distances.out_of_reach(&squares);
-        let asked = Asked { roots, complex, is_needed: complex || short.is_none() };
+        let is_rounded = self.is_rounded || !case_squares.iter().all(Number::is_exact);
+        let asked = Asked { roots, complex, is_needed: complex || short.is_none(), is_rounded };
         let mut knowledge = self.knowledge(&squares, &asked, memory, assembly);
         knowledge.complex_asked = complex && roots == Roots::All;
         knowledge.no_real_pose = short.is_some();
@@ -140,10 +143,10 @@ impl PreparedPlatform {
         }
         let solve_us = start.elapsed().as_secs_f64() * 1e6;
         let is_settled_in_f64 = is_settled(assembly);
-        // Certificates in f64 have the rounding of every coordinate in their radii; whatever else there is speaks of the rationals that
-        // stand for irrational coordinates.
+        // Certificates in f64 have the rounding of every number in their radii; whatever else there is speaks of the rationals that
+        // stand for irrational ones.
         let is_theorem = is_settled_in_f64 && verdict.code == Code::GeneralBoundMet;
-        verdict.proof = verdict.proof.of_rounded(self.is_rounded && !is_theorem);
+        verdict.proof = verdict.proof.of_rounded(is_rounded && !is_theorem);
         let outside = self.limits.legs_outside(&squares);
         let modes = assembly.modes.iter().map(|mode| self.full(mode, &outside));
         let is_within = |pose: &[f64]| self.joints_outside(pose).is_empty();
@@ -173,7 +176,7 @@ impl PreparedPlatform {
     ) -> PlatformKnowledge {
         let dependent = self.dependent.as_ref().filter(|_| asked.roots == Roots::All);
         if let Some(legs) = dependent
-            && let Some(knowledge) = self.by_dependence(legs, squares, &[], memory, assembly)
+            && let Some(knowledge) = self.by_dependence(legs, (squares, asked.is_rounded), &[], memory, assembly)
         {
             return knowledge;
         }
@@ -186,19 +189,21 @@ impl PreparedPlatform {
         let found = side.settle(&mut Search { solver: &self.solver, memory, assembly }, None);
         let near: Vec<Motion<f64>> = assembly.motion.iter().filter_map(|pose| pose_of(pose)).take(MOST_NEAR).collect();
         let proved = dependent.filter(|_| !near.is_empty());
-        proved.and_then(|legs| self.by_dependence(legs, squares, &near, memory, assembly)).unwrap_or(found)
+        let proved =
+            proved.and_then(|legs| self.by_dependence(legs, (squares, asked.is_rounded), &near, memory, assembly));
+        proved.unwrap_or(found)
     }
 
     /// What is known where legs depend on others; `None` where no real pose is found with their lengths. `near` are poses nearby.
     fn by_dependence(
         &self,
         legs: &DependentLegs,
-        squares: &[Rational; 6],
+        (squares, is_rounded): (&[Rational; 6], bool),
         near: &[Motion<f64>],
         memory: &mut PlatformWorkspace,
         assembly: &mut PlatformAssembly,
     ) -> Option<PlatformKnowledge> {
-        let Consistency::Families(dimension) = legs.consistency(&self.exact, squares) else {
+        let Consistency::Families(dimension) = legs.consistency(&self.exact, squares, is_rounded) else {
             *assembly = PlatformAssembly { route: Route::Dependent, ..PlatformAssembly::default() };
             return Some(PlatformKnowledge { count: Some(dependent::contradiction()), ..PlatformKnowledge::default() });
         };

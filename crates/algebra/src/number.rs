@@ -183,13 +183,17 @@ impl Number {
         simplest_within(float, &(relative(digits) * float.clone().abs()))
     }
 
-    /// Returns the square, as exact as the number is.
+    /// Returns the square, as exact as the number is; that of a square root is the rational number under it.
     #[must_use]
     pub fn squared(&self) -> Self {
         let square = Rational::from(self.rational.square_ref());
         match self.enclosed() {
             Some(real) => {
-                let closed = self.closed.as_ref().and_then(|closed| closed.mul(closed)).map(Arc::new);
+                let closed = self.closed.as_ref().and_then(|closed| closed.mul(closed));
+                if let Some(whole) = closed.as_ref().and_then(Closed::as_rational) {
+                    return Self::exact(whole);
+                }
+                let closed = closed.map(Arc::new);
                 Self { closed, written: self.written.squared(), ..Self::standing_for(square, real.mul(real)) }
             }
             None if self.exact => Self::exact(square),

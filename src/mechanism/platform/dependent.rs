@@ -11,6 +11,8 @@ use rug::Rational;
 
 /// The functions of a pose of which every leg's equation is a combination: `p.p`, three of `R^T p`, three of p, and nine of R.
 const FUNCTIONS: usize = 16;
+/// A sum of rounded numbers below this part of the sum of their sizes may be 0: they have 15 digits at least.
+const ROUNDED: f64 = 1e-13;
 /// Lengths of further legs that are tried: 16 divide the range in which a pose can be finely enough for a closed curve that takes a
 /// tenth of it.
 const TRIED: usize = 16;
@@ -68,15 +70,19 @@ impl DependentLegs {
         Some(Self { combinations: echelon.null_space(), redundant, regular, solver })
     }
 
-    /// Returns what the lengths of the legs have to do with one another.
-    pub fn consistency(&self, platform: &Platform<Rational>, squares: &[Rational; 6]) -> Consistency {
+    /// Returns what the lengths of the legs have to do with one another. Of rounded numbers a relation counts as met where it is so to
+    /// rounding.
+    pub fn consistency(&self, platform: &Platform<Rational>, squares: &[Rational; 6], is_rounded: bool) -> Consistency {
         let constant = |leg: usize| {
             let (a, b) = (&platform.base[leg], &platform.plate[leg]);
             dot(a, a) + dot(b, b) - &squares[leg]
         };
         let constants: [Rational; 6] = std::array::from_fn(constant);
         let is_met = |row: &Vec<Rational>| {
-            row.iter().zip(&constants).fold(Rational::new(), |sum, (x, y)| sum + Rational::from(x * y)) == 0
+            let terms: Vec<Rational> = row.iter().zip(&constants).map(|(x, y)| Rational::from(x * y)).collect();
+            let sum: Rational = terms.iter().sum();
+            let size: Rational = terms.iter().map(|term| term.clone().abs()).sum();
+            sum == 0 || (is_rounded && nearest_f64(&sum).abs() <= ROUNDED * nearest_f64(&size))
         };
         if self.combinations.iter().all(is_met) {
             Consistency::Families(self.redundant.len())

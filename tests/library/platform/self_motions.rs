@@ -80,6 +80,29 @@ fn legs_between_points_of_conics_with_the_same_parameters_move() {
     other[2] = format!("{}", other[2].parse::<Rational>().unwrap() + Rational::from((1, 1_000_000_000)));
     let verdict = solved(&exact.base, &exact.plate, &json!({"legs": [{"squared": other}]})).verdict;
     assert_eq!((verdict.status, verdict.proof, verdict.code), (Status::Unreachable, Proof::Proved, Code::NoSolution));
+    // Legs written as square roots are the same ones. Of irrational squares nothing is proved, and the motion is seen.
+    let roots = squares.each_ref().map(|square| format!("sqrt({square})"));
+    let verdict = solved(&exact.base, &exact.plate, &json!({"legs": [{"lengths": roots}]})).verdict;
+    assert_eq!((verdict.status, verdict.proof, verdict.self_motion), (Status::SelfMotion, Proof::Proved, 1));
+    let mut irrational = exact.base.clone().map(|p| p.map(|x| x.to_string()));
+    irrational[0][2] = "sqrt(2)".to_owned();
+    let file = json!({"mechanism": {"kind": "platform", "base": irrational, "plate": texts(&exact.plate)}, "pose": [{"matrix": POSE}]});
+    let loaded = load_text(&file.to_string(), "platform.json", Format::Json, &Options::default()).unwrap();
+    let (mut workspace, mut assembly) = Default::default();
+    let mechanism = Mechanism::prepare(&loaded).unwrap();
+    let rounded = mechanism.solve(&loaded.cases[0], Roots::All, &mut workspace, &mut assembly).unwrap().verdict;
+    assert!(rounded.status != Status::SelfMotion || rounded.proof != Proof::Proved, "{rounded:?}");
+    // The combination of the legs' equations of which these are the constants: irrational lengths may fulfil it, too.
+    let shifted = ["107.6+sqrt(2)/50", "106+21*sqrt(2)/500", "55.12", "50", "53.2", "82"];
+    let circle = |points: f64| {
+        let point = |(x, y): (f64, f64)| json!([x * points / 5.0, y * points / 5.0, 0]);
+        json!([(5.0, 0.0), (3.0, 4.0), (-3.0, 4.0), (-4.0, -3.0), (0.0, -5.0), (4.0, -3.0)].map(point))
+    };
+    let file = json!({"mechanism": {"kind": "platform", "base": circle(5.0), "plate": circle(3.0)}, "legs": [{"squared": shifted}]});
+    let loaded = load_text(&file.to_string(), "platform.json", Format::Json, &Options::default()).unwrap();
+    let mechanism = Mechanism::prepare(&loaded).unwrap();
+    let rounded = mechanism.solve(&loaded.cases[0], Roots::All, &mut workspace, &mut assembly).unwrap().verdict;
+    assert!(rounded.status == Status::SelfMotion && rounded.proof == Proof::RoundedData, "{rounded:?}");
     // One parameter of the plate differs: the legs are independent, and nothing moves.
     let plate = on_a_conic([0, 1, -1, 2, -3, 4], 3, 0);
     let verdict = solved(&exact.base, &plate, &at_pose()).verdict;
