@@ -182,9 +182,20 @@ impl Case {
     /// Returns the case of a platform with the leg lengths of this pose, exact if the pose is; without claims.
     #[must_use]
     pub fn legs_at(platform: &Platform<Number>, pose: Placement, line: usize) -> Self {
-        let exact = |points: &[[Number; 3]; 6]| points.each_ref().map(|p| p.each_ref().map(|x| x.rational().clone()));
-        let platform = Platform { base: exact(&platform.base), plate: exact(&platform.plate) };
-        let squares = platform.legs_squared(&pose.exact).map(Number::exact);
+        let exact = in_numbers(platform, |x| x.rational().clone());
+        let squares = exact.legs_squared(&pose.exact);
+        let squares = match &pose.given {
+            None => squares.map(Number::exact),
+            // The pose has irrational numbers, and so have the legs as a rule.
+            Some(given) => {
+                let known = |x: &Number| Enclosure::from_number(x).unwrap_or_else(Enclosure::zero);
+                let mut enclosed = in_numbers(platform, known).legs_squared(&given.motion).into_iter();
+                squares.map(|square| match enclosed.next() {
+                    Some(real) => Number::standing_for(square, real),
+                    None => Number::rounded(square),
+                })
+            }
+        };
         Self { pose: Some(pose), ..Self::legs(squares, line) }
     }
 
@@ -201,6 +212,12 @@ impl Case {
             line,
         }
     }
+}
+
+/// The points of a platform in numbers of another kind.
+fn in_numbers<R>(platform: &Platform<Number>, number: impl Fn(&Number) -> R) -> Platform<R> {
+    let points = |points: &[[Number; 3]; 6]| points.each_ref().map(|point| point.each_ref().map(&number));
+    Platform { base: points(&platform.base), plate: points(&platform.plate) }
 }
 
 /// Claims that `looproot check` tests; every one optional.

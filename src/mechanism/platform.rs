@@ -128,7 +128,7 @@ impl PreparedPlatform {
         let short = self.distances.out_of_reach(&squares);
         let is_rounded = self.is_rounded || !case_squares.iter().all(Number::is_exact);
         let asked = Asked { roots, complex, is_needed: complex || short.is_none(), is_rounded };
-        let mut knowledge = self.knowledge(&squares, &asked, memory, assembly);
+        let (mut knowledge, is_settled_in_f64) = self.knowledge(&squares, &asked, memory, assembly);
         knowledge.complex_asked = complex && roots == Roots::All;
         knowledge.no_real_pose = short.is_some();
         let mut verdict = platform_verdict(assembly, roots, &knowledge);
@@ -142,7 +142,6 @@ impl PreparedPlatform {
             verdict = platform_verdict(assembly, roots, &knowledge);
         }
         let solve_us = start.elapsed().as_secs_f64() * 1e6;
-        let is_settled_in_f64 = is_settled(assembly);
         // Certificates in f64 have the rounding of every number in their radii; whatever else there is speaks of the rationals that
         // stand for irrational ones.
         let is_theorem = is_settled_in_f64 && verdict.code == Code::GeneralBoundMet;
@@ -166,23 +165,24 @@ impl PreparedPlatform {
         })
     }
 
-    /// Finds the poses, and says what is known of their number.
+    /// Finds the poses, and says what is known of their number, and whether f64 alone has found and proved as many as there can be.
     fn knowledge(
         &self,
         squares: &[Rational; 6],
         asked: &Asked,
         memory: &mut PlatformWorkspace,
         assembly: &mut PlatformAssembly,
-    ) -> PlatformKnowledge {
+    ) -> (PlatformKnowledge, bool) {
         let dependent = self.dependent.as_ref().filter(|_| asked.roots == Roots::All);
         if let Some(legs) = dependent
             && let Some(knowledge) = self.by_dependence(legs, (squares, asked.is_rounded), &[], memory, assembly)
         {
-            return knowledge;
+            return (knowledge, false);
         }
         self.solver.solve_up_to(squares, asked.roots, None, memory, assembly);
-        if asked.roots != Roots::All || !asked.is_needed || is_settled(assembly) {
-            return PlatformKnowledge::default();
+        let is_settled = is_settled(assembly);
+        if asked.roots != Roots::All || !asked.is_needed || is_settled {
+            return (PlatformKnowledge::default(), is_settled);
         }
         let side =
             ExactSide { platform: &self.exact, squares, incidence: self.solver.incidence(), complex: asked.complex };
@@ -191,7 +191,7 @@ impl PreparedPlatform {
         let proved = dependent.filter(|_| !near.is_empty());
         let proved =
             proved.and_then(|legs| self.by_dependence(legs, (squares, asked.is_rounded), &near, memory, assembly));
-        proved.unwrap_or(found)
+        (proved.unwrap_or(found), false)
     }
 
     /// What is known where legs depend on others; `None` where no real pose is found with their lengths. `near` are poses nearby.

@@ -4,7 +4,7 @@
 use crate::algebra::polynomial::Polynomial;
 use crate::algebra::ring::Ring;
 use crate::algebra::text::{Format, Names};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use rug::Rational;
 
 /// A polynomial of a system, and what it is.
@@ -40,6 +40,9 @@ pub(super) const ROUNDED: &str =
 /// # Errors
 /// Where the language has no way to say it.
 pub(super) fn export(head: &Head, lines: &[Line], names: &Names, format: Format) -> Result<String> {
+    if lines.is_empty() {
+        return Err(Error::Unsupported(format!("{}: there are no closure equations to write", head.title)));
+    }
     let occurs = |variable: &usize| lines.iter().any(|line| line.polynomial.degree(*variable) > 0);
     let used: Vec<usize> = (0..names.list().len()).filter(occurs).collect();
     let mut text = vec![format!("{}, case {}", head.title, head.case)];

@@ -38,7 +38,7 @@ pub(super) fn univariate(polynomial: &Univariate<Integer>) -> Polynomial<Rationa
 }
 
 /// What the letters of the unknowns stand for.
-const LETTERS: &str = "c and s are the cosine and the sine of the angle of a body, d is the displacement of a joint";
+const LETTERS: &str = "c and s are the cosine and the sine of the angle of a body, d is the displacement of a joint over the length of its direction in the file";
 
 /// The half-angle tangent of a body.
 pub(super) fn tangent(file: &LinkageFile, body: usize) -> String {
@@ -291,7 +291,9 @@ pub fn system(file: &LinkageFile, number: usize, derivation: &LinkageDerivation,
         names.push(tangent(file, best.body));
         let degree = best.coefficients.degree().unwrap_or(0);
         let coefficients = Univariate::new(best.coefficients.coefficients().iter().map(Rational::from).collect());
-        let last = format!("the closure polynomial, of degree {degree}: {}", meaning(file, best));
+        let is_there = derivation.variables.contains(&Symbol::Cosine(best.body));
+        let alone = if is_there { "" } else { ", which turns with a body of the equations" };
+        let last = format!("the closure polynomial, of degree {degree}: {}{alone}", meaning(file, best));
         Line::new(last, Polynomial::from_univariate(names.len() - 1, &coefficients))
     });
     let (plain, renamed) = plain_names(&names)?;

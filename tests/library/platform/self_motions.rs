@@ -76,7 +76,7 @@ fn legs_between_points_of_conics_with_the_same_parameters_move() {
         }
     }
     // One leg longer by the least: no pose at all.
-    let mut other = squares.map(|square| square.to_string());
+    let mut other = squares.each_ref().map(ToString::to_string);
     other[2] = format!("{}", other[2].parse::<Rational>().unwrap() + Rational::from((1, 1_000_000_000)));
     let verdict = solved(&exact.base, &exact.plate, &json!({"legs": [{"squared": other}]})).verdict;
     assert_eq!((verdict.status, verdict.proof, verdict.code), (Status::Unreachable, Proof::Proved, Code::NoSolution));
@@ -103,6 +103,19 @@ fn legs_between_points_of_conics_with_the_same_parameters_move() {
     let mechanism = Mechanism::prepare(&loaded).unwrap();
     let rounded = mechanism.solve(&loaded.cases[0], Roots::All, &mut workspace, &mut assembly).unwrap().verdict;
     assert!(rounded.status == Status::SelfMotion && rounded.proof == Proof::RoundedData, "{rounded:?}");
+    // The legs of an irrational pose are rounded: the plate turns about the line (1, 2, 3), on which half of its points are.
+    let turning = json!({
+        "mechanism": {
+            "kind": "platform",
+            "base": [[1, 2, 3], [2, 4, 6], [-1, -2, -3], [5, 0, 1], [0, 6, -2], [4, -3, 2]],
+            "plate": [[3, 0, 1], [1, -4, 2], [-2, 5, 0], [1, 2, 3], [-2, -4, -6], [3, 6, 9]],
+        },
+        "pose": [{"quaternion": [1, 0, 0, 0], "position": ["sqrt(2)", "sqrt(8)", "sqrt(18)"]}],
+    });
+    let loaded = load_text(&turning.to_string(), "platform.json", Format::Json, &Options::default()).unwrap();
+    let mechanism = Mechanism::prepare(&loaded).unwrap();
+    let rounded = mechanism.solve(&loaded.cases[0], Roots::All, &mut workspace, &mut assembly).unwrap().verdict;
+    assert!(rounded.proof != Proof::Proved, "{rounded:?}");
     // One parameter of the plate differs: the legs are independent, and nothing moves.
     let plate = on_a_conic([0, 1, -1, 2, -3, 4], 3, 0);
     let verdict = solved(&exact.base, &plate, &at_pose()).verdict;
