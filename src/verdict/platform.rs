@@ -33,7 +33,7 @@ pub struct PlatformKnowledge {
 pub struct Moving {
     /// Its dimension.
     pub dimension: usize,
-    /// Whether no pose is isolated, because legs depend on others; it goes through the pose of the file otherwise.
+    /// Whether no pose is isolated among all complex ones, because legs depend on others; it goes through the pose of the file otherwise.
     pub is_all: bool,
 }
 
@@ -42,8 +42,8 @@ impl Moving {
         let Self { dimension, is_all } = self;
         let reason = if is_all {
             format!(
-                "poses form a self-motion of dimension {dimension}, and none is isolated: the equations of some legs are combinations of \
-                 the others'"
+                "poses form a self-motion of dimension {dimension}, and every other one lies on a family, too, real or complex: the equations \
+                 of some legs are combinations of the others'; a real pose may stand alone on a family of complex ones"
             )
         } else {
             format!(
