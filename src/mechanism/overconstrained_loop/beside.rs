@@ -1,16 +1,16 @@
 //! What stands beside a self-motion of an overconstrained loop at an input: the family as f64 sees it, and the isolated solutions, exactly.
 
-use super::super::exact_loop::{Question, Standing};
-use super::super::family::Joints;
-use super::super::single_loop::{is_exact, locked_value};
-use super::super::vicinity::{Place, scaled};
-use super::super::{Family, FullMode};
 use super::{Ladder, NEARLY_ZERO, OverconstrainedLoop, Rung};
 use crate::algebra::approximation::simplest_within;
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::entry::Case;
 use crate::error::Result;
 use crate::kinematics::closed_loop::Variable;
+use crate::mechanism::exact_loop::{Question, Standing};
+use crate::mechanism::family::Joints;
+use crate::mechanism::single_loop::{is_exact, locked_value};
+use crate::mechanism::vicinity::{Place, scaled};
+use crate::mechanism::{Family, FullMode};
 use crate::solve::curve::CLOSES_WITHIN;
 use crate::solve::self_motion::SelfMotion;
 use crate::verdict::Verdict;

@@ -324,8 +324,7 @@ pub fn document(mut value: Value, entry: &Entry) -> String {
 fn exit(derivation: &Derivation) -> Exit {
     match &derivation.polynomial {
         None => Exit::NotProved,
-        // A root may belong to a self-motion.
-        Some(_) if !derivation.proved || !derivation.finite => Exit::NotProved,
+        Some(_) if !derivation.proved => Exit::NotProved,
         Some(polynomial) if polynomial.roots.is_empty() && polynomial.at_pi == 0 => Exit::Unreachable,
         Some(_) => Exit::Complete,
     }
