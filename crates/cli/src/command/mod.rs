@@ -4,6 +4,7 @@ mod answer_file;
 pub mod arguments;
 #[cfg(not(target_family = "wasm"))]
 mod arrow_table;
+#[cfg(not(target_family = "wasm"))]
 pub mod bench;
 pub mod bless;
 pub mod calculus;
@@ -39,6 +40,7 @@ pub mod output;
 mod platform_sweep;
 pub mod poly;
 pub mod rows;
+#[cfg(not(target_family = "wasm"))]
 pub mod score;
 pub mod seed;
 pub mod show;
@@ -143,7 +145,14 @@ impl Verb {
             Self::Check(options) => check::run(options),
             Self::Verify(options) => verify::run(options),
             Self::Poly(options) => poly::run(options),
+            #[cfg(not(target_family = "wasm"))]
             Self::Bench(options) => bench::run(options),
+            // Pages have 6 MB, and a solver that is compiled for size is not the one to be measured.
+            #[cfg(target_family = "wasm")]
+            Self::Bench(_) => {
+                let message = "bench in a browser: expected the program on a computer";
+                Err(looproot::internal::error::Error::Unsupported(message.to_owned()).into())
+            }
             Self::Completions(options) => completions::run(options),
         }
     }
