@@ -264,7 +264,9 @@ pub fn derive_linkage_with_symbols(
     };
     // The first one is the input, and the others are held.
     let mut given = given.to_vec();
-    given[..].get_mut(..=place).into_iter().for_each(|first| first.rotate_right(1));
+    if let Some(first) = given.get_mut(..=place) {
+        first.rotate_right(1);
+    }
     let base = derive_linkage(linkage, &given)?;
     let coordinates = Wanted { names: coordinates.into_iter().cloned().collect(), all: inputs.is_empty() };
     with_symbols(linkage, &given, base, &coordinates, watch)

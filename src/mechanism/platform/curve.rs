@@ -11,7 +11,7 @@ use rug::Rational;
 /// Study's parameters x and y of a pose, as coefficients of a power series.
 type Coefficient = [Four<Rational>; 2];
 
-/// Largest number of bits of a coefficient, after which the series is given up: up to here all orders take a second.
+/// Largest number of bits of a coefficient, after which the series is given up: coordinates of three digits come to it in less than a second.
 const MOST_BITS: u32 = 6000;
 
 /// Number of unknowns: Study's parameters without the first, which is held at 1.

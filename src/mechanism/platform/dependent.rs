@@ -1,4 +1,4 @@
-//! Platforms with legs that depend on others, whatever their lengths are: no pose is isolated.
+//! Platforms with legs that depend on others, whatever their lengths are: no pose is isolated among the complex ones.
 
 use crate::algebra::echelon::Echelon;
 use crate::algebra::number::nearest_f64;
