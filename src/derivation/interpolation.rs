@@ -23,6 +23,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Maximum number of terms: a program that reads larger polynomials is better served by the numbers.
 const MOST_TERMS: usize = 100_000;
+/// Maximum number of products of powers, each of 256 residues of 8 bytes: two thousand bytes for each of them are a gigabyte.
+const MOST_PRODUCTS: usize = 500_000;
 /// Maximum degree in a symbol.
 pub(super) const MOST_DEGREE: usize = 96;
 /// Number of values at which the result is compared with a separate derivation.
@@ -166,10 +168,15 @@ impl<'s, S: Source> Family<'s, S> {
             self.degree(k).ok_or_else(|| self.stopped(&message))
         };
         let degrees: Vec<usize> = (0..self.names.len()).map(degree).collect::<Result<_>>()?;
-        let terms = degrees.iter().fold(self.length, |product, degree| product.saturating_mul(degree + 1));
-        if terms > MOST_TERMS {
-            let message = format!("with these symbols there is room for {terms} terms, expected at most {MOST_TERMS}");
-            return Err(open(&message));
+        let products = degrees.iter().fold(self.length, |product, degree| product.saturating_mul(degree + 1));
+        if products > MOST_TERMS {
+            // A total degree too large to be found leaves room for all products.
+            let total = self.total_degree().unwrap_or_else(|| degrees.iter().sum());
+            let terms = self.length.saturating_mul(products_below(&degrees, total));
+            if terms > MOST_TERMS || products > MOST_PRODUCTS {
+                let message = format!("with these symbols it has some {terms} terms, expected at most {MOST_TERMS}");
+                return Err(open(&message));
+            }
         }
         (self.watch.begin)(self.samples(&degrees));
         let mut shapes = vec![None; degrees.len()];
@@ -248,14 +255,24 @@ impl<'s, S: Source> Family<'s, S> {
     /// Returns the degree in one symbol, with numbers for the others.
     fn degree(&self, symbol: usize) -> Option<usize> {
         let values = self.values.start(self.names.len());
+        self.degree_along(symbol, |at| {
+            let mut values = values.clone();
+            values[symbol] = at.clone();
+            values
+        })
+    }
+
+    /// Returns the degree in all symbols together: that on a line, which may be lower on this one.
+    fn total_degree(&self) -> Option<usize> {
+        self.degree_along(0, |at| (0..self.names.len()).map(|k| Rational::from(at + k as u64)).collect())
+    }
+
+    /// Returns the degree in the values of a symbol where these lead to values of all.
+    fn degree_along(&self, symbol: usize, values: impl Fn(&Rational) -> Vec<Rational> + Sync) -> Option<usize> {
         let mut degree = 2;
         while degree <= MOST_DEGREE {
             let count = Shape::points(degree, self.length);
-            let samples = self.sampled(symbol, count, |at| {
-                let mut values = values.clone();
-                values[symbol] = at.clone();
-                self.residues::<1>(&values)
-            })?;
+            let samples = self.sampled(symbol, count, |at| self.residues::<1>(&values(at)))?;
             if let Some(shape) = Shape::of(&samples.points, &samples.vectors) {
                 return Some(shape.degree);
             }
@@ -381,6 +398,21 @@ impl<'s, S: Source> Family<'s, S> {
         }
         Err(self.stopped("values drawn at random lead to another unknown"))
     }
+}
+
+/// Returns the number of products of powers of these degrees at most, and of this total degree at most.
+fn products_below(degrees: &[usize], total: usize) -> usize {
+    let mut ways = vec![1_usize];
+    for degree in degrees {
+        let mut next = vec![0; ways.len() + degree];
+        for (sum, count) in ways.iter().enumerate() {
+            for own in &mut next[sum..=sum + degree] {
+                *own += count;
+            }
+        }
+        ways = next;
+    }
+    ways.iter().take(total + 1).sum()
 }
 
 /// Vectors at points.

@@ -166,7 +166,7 @@ impl Joints<'_> {
     }
 
     /// A configuration with its angles in (-pi, pi], or within the limits where whole turns lead there.
-    fn placed(&self, mut q: Vec<f64>) -> Vec<f64> {
+    pub(super) fn placed(&self, mut q: Vec<f64>) -> Vec<f64> {
         for (value, variable) in q.iter_mut().zip(self.variables) {
             if *variable == Variable::Rotation {
                 *value = wrapped(*value);

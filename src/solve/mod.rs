@@ -16,6 +16,7 @@ pub mod lane_brackets;
 pub mod lane_closure;
 pub mod lane_substitution;
 pub mod lanes;
+pub mod locked;
 pub mod newton;
 pub mod paths;
 pub mod plane_curve;

@@ -62,7 +62,7 @@ fn is_matched(derivation: &LinkageDerivation, own: &GroupPolynomial, full: usize
 impl LinkageRelation {
     /// The relation of the first given joint and the output of a linkage, the others held; with the name of a coordinate of a point that
     /// relation with the coordinate as a symbol, interpolated, at the value of the joint.
-    pub fn of(linkage: &Linkage, given: &[Given], coordinate: Option<&str>) -> Result<Self> {
+    pub fn of(linkage: &Linkage, given: &[Given], coordinate: Option<&str>, watch: &Watch<'_>) -> Result<Self> {
         let derivation = derive_linkage(linkage, given)?;
         let best = whole(&derivation)?;
         let none = || {
@@ -70,14 +70,14 @@ impl LinkageRelation {
         };
         let (polynomial, kind, agrees) = match (coordinate, &derivation.input_output) {
             (Some(name), _) => {
-                let found = derive_linkage_with_symbols(linkage, given, &[name.to_owned()], &Watch::none())?;
+                let found = derive_linkage_with_symbols(linkage, given, &[name.to_owned()], watch)?;
                 let at_input = found.at_input(linkage, &given[0]).ok_or_else(none)?;
                 (at_input, Variable::Translation, found.agrees)
             }
             (None, Some(relation)) => return Self::of_relation(linkage, &derivation, best, relation).ok_or_else(none),
             // Of a slide in a body that turns the determinant is not a polynomial in its displacement.
             (None, None) => {
-                let own = relation_by_values(linkage, given, 0, (best.body, best.roots()), &Watch::none())?;
+                let own = relation_by_values(linkage, given, 0, (best.body, best.roots()), watch)?;
                 (own, kind_of(given.first()), true)
             }
         };

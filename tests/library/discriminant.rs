@@ -3,7 +3,7 @@
 
 use looproot::internal::catalogue::entry::Entry;
 use looproot::internal::catalogue::{Any, LinkageFile, Options, load, load_any};
-use looproot::internal::derivation::derive;
+use looproot::internal::derivation::{Watch, derive};
 use looproot::internal::kinematics::closed_loop::Variable;
 use looproot::internal::sweep::{
     Cells, EntryCase, Label, LinkageCase, MapWanted, Range, SpaceCase, SphereCase, Subject, cell_map, cells, sweep,
@@ -17,7 +17,7 @@ fn entry(name: &str) -> Entry {
 }
 
 fn found(entry: &Entry, parameter: &str) -> Cells {
-    cells(&EntryCase::new(entry, &entry.cases[0]), parameter).unwrap()
+    cells(&EntryCase::new(entry, &entry.cases[0]), parameter, &Watch::none()).unwrap()
 }
 
 /// The solver agrees at the sample point of every cell.
@@ -155,7 +155,7 @@ fn inputs_of_linkages_cut_cells_that_the_solver_confirms() {
         let file = linkage(name);
         let subject = case(&file);
         let first = file.linkage.joints.iter().find(|joint| subject.parameter(&joint.name).is_ok()).unwrap();
-        let own = cells(&subject, if parameter.is_empty() { &first.name } else { parameter }).unwrap();
+        let own = cells(&subject, if parameter.is_empty() { &first.name } else { parameter }, &Watch::none()).unwrap();
         // Of a slide in a body that turns the relation is interpolated.
         let is_probable = name == "linkage/inverted_slider_crank";
         assert_eq!(matches!(own.verdict.proof, Proof::Probable { .. }), is_probable, "{name}: {:?}", own.verdict);
@@ -169,7 +169,7 @@ fn inputs_of_linkages_cut_cells_that_the_solver_confirms() {
 fn one_leg_of_three_cuts_cells() {
     let file = linkage("linkage/3rpr");
     let subject = case(&file);
-    let own = cells(&subject, "L2").unwrap();
+    let own = cells(&subject, "L2", &Watch::none()).unwrap();
     assert!(!own.verdict.proof.is_proved() && own.polynomial.degree(1) == 6, "{:?}", own.verdict);
     holds(&own);
     agrees(&subject, &own);
@@ -179,14 +179,14 @@ fn one_leg_of_three_cuts_cells() {
 fn coordinates_of_points_cut_cells_as_well() {
     let file = linkage("linkage/level_four_bar");
     let subject = case(&file);
-    let own = cells(&subject, "crank.B.x").unwrap();
+    let own = cells(&subject, "crank.B.x", &Watch::none()).unwrap();
     assert!(matches!(own.verdict.proof, Proof::Probable { .. }), "{:?}", own.verdict);
     holds(&own);
     agrees(&subject, &own);
     let limits: Vec<f64> = own.zeros.iter().map(|zero| zero.value).collect();
     // The coupler and the rocker, 3 and 1, reach the joint of the crank where it is 4 away from D; or 2, which it never is.
     assert!((limits[0] + 1.4).abs() < 1e-9 && (limits[1] - 5.0).abs() < 1e-9, "{limits:?}");
-    assert!(cells(&subject, "crank.B.q").is_err());
+    assert!(cells(&subject, "crank.B.q", &Watch::none()).is_err());
 }
 
 fn on_sphere(name: &str) -> SphereCase {
@@ -201,18 +201,18 @@ fn a_four_bar_on_the_sphere_has_proved_cells() {
     let subject = on_sphere("linkage/spherical_four_bar");
     let parameter = subject.parameter("A").unwrap();
     assert_eq!(parameter.value, Some(Rational::from(2)));
-    let own = cells(&subject, "A").unwrap();
+    let own = cells(&subject, "A", &Watch::none()).unwrap();
     assert!(own.verdict.proof.is_proved(), "{:?}", own.verdict);
     assert_eq!(own.polynomial.degree(1), 2);
     holds(&own);
     agrees(&subject, &own);
-    assert!(cells(&subject, "B").is_err());
+    assert!(cells(&subject, "B", &Watch::none()).is_err());
 }
 
 #[test]
 fn six_bars_on_the_sphere_have_cells_that_the_solver_confirms() {
     let subject = on_sphere("linkage/spherical_watt");
-    let own = cells(&subject, "A").unwrap();
+    let own = cells(&subject, "A", &Watch::none()).unwrap();
     assert!(matches!(own.verdict.proof, Proof::Probable { .. }), "{:?}", own.verdict);
     assert_eq!(own.polynomial.degree(1), 4);
     holds(&own);
@@ -226,7 +226,7 @@ fn linkages_in_space_have_cells_that_the_solver_confirms() {
     };
     let subject = SpaceCase::new(&file, 0);
     let given = file.cases[0].given[0].joint.unwrap();
-    let own = cells(&subject, &file.linkage.joints[given].name).unwrap();
+    let own = cells(&subject, &file.linkage.joints[given].name, &Watch::none()).unwrap();
     assert!(matches!(own.verdict.proof, Proof::Probable { .. }), "{:?}", own.verdict);
     assert_eq!(own.polynomial.degree(1), 4);
     holds(&own);
@@ -236,7 +236,7 @@ fn linkages_in_space_have_cells_that_the_solver_confirms() {
 #[test]
 fn six_bars_whose_values_are_close_have_cells() {
     let file = linkage("linkage/stephenson_3_triad");
-    let own = cells(&case(&file), "H").unwrap();
+    let own = cells(&case(&file), "H", &Watch::none()).unwrap();
     assert!(own.verdict.proof.is_proved(), "{:?}", own.verdict);
     holds(&own);
 }

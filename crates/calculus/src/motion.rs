@@ -53,6 +53,16 @@ impl<R: Ring> Motion<R> {
         m
     }
 
+    /// Returns the rotation about a coordinate axis (0 for x) with the given cosine and sine.
+    #[must_use]
+    pub fn rotation_about(axis: usize, cos: R, sin: R) -> Self {
+        // A cycle of the axes leads from z to any of them.
+        let place = |k: usize| (k + 5 - axis) % 3;
+        let about_z = Self::rotation_z(cos, sin).rotation;
+        let row = |i: usize| std::array::from_fn(|j| about_z[place(i)][place(j)].clone());
+        Self { rotation: std::array::from_fn(row), ..Self::identity() }
+    }
+
     /// Returns `Rx`, the rotation about the x axis with the given cosine and sine.
     #[must_use]
     pub fn rotation_x(cos: R, sin: R) -> Self {

@@ -90,13 +90,15 @@ pub struct Symbolic {
 
 /// Derives one case with symbols: by [`derive_symbolic`] if an elimination works with symbols, else, for up to three symbols that
 /// are named, by interpolation between derivations with numbers. The symbols are then link parameters, the input, the position
-/// `x`, `y`, `z` of the pose of an arm, or the lengths `leg1` to `leg6` of a platform.
+/// `x`, `y`, `z` of the pose of an arm, turns `turn_x`, `turn_y`, `turn_z` of the tool there about its own axes, points `point2.x` of axes in
+/// screws, or lengths `leg1` and coordinates of points `base1.x`, `plate1.x` of a platform.
 ///
 /// # Errors
 /// [`Error::Unsupported`] if the polynomial has too many terms, or no derivation with numbers exists; [`Error::Invalid`] for an
 /// unknown parameter.
 pub fn derive_with_symbols(entry: &Entry, case: &Case, wanted: &[String], watch: &Watch<'_>) -> Result<Symbolic> {
-    let is_of_pose = |name: &String| setting::COORDINATES.contains(&name.as_str());
+    let is_of_pose =
+        |name: &String| setting::COORDINATES.iter().chain(&setting::TURNS).any(|own| *own == name.as_str());
     if case.pose.is_some() && wanted.iter().any(is_of_pose) {
         return interpolated::derive_interpolated(entry, case, wanted, watch);
     }

@@ -2,14 +2,21 @@
 
 use super::table::{self, Value, shown};
 use crate::algebra::number::{Angle, HalfTangent, Number};
+use crate::algebra::ring::exact_cos_sin;
 use crate::catalogue::entry::{Case, Design, Entry, InputValue};
 use crate::error::{Error, Result};
-use crate::kinematics::chain::{Chain, Geometry, Placement};
+use crate::kinematics::chain::{Chain, Geometry, JointKind, Placement, ScrewJoint};
 use crate::kinematics::closed_loop::{Parameter, Variable};
+use crate::kinematics::motion::Motion;
+use crate::kinematics::platform::Platform;
 use rug::Rational;
 
-/// Coordinates of the position of a pose.
+/// Coordinates of the position of a pose, and of a point.
 pub(super) const COORDINATES: [&str; 3] = ["x", "y", "z"];
+/// Turns of the tool at a pose about its own axes.
+pub(super) const TURNS: [&str; 3] = ["turn_x", "turn_y", "turn_z"];
+/// The bodies of a platform, whose points are numbered as the legs are.
+const BODIES: [&str; 2] = ["base", "plate"];
 
 /// The position of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,6 +27,13 @@ pub(crate) enum Place {
     Input,
     /// A coordinate of the position of a pose.
     Coordinate(usize),
+    /// A turn of the tool about one of its axes, after the pose of the file and the turns that are named before.
+    Turn(usize),
+    /// A coordinate of a point of the axis of a joint in screws, counted from 0.
+    AxisPoint(usize, usize),
+    /// A coordinate of a point of a platform: the body (0 for the base), the first leg there, and the coordinate. The other legs that meet
+    /// there go with it.
+    Point(usize, usize, usize),
     /// A leg of a platform, counted from 0.
     Leg(usize),
 }
@@ -45,10 +59,12 @@ impl Setting {
     pub fn all(entry: &Entry, case: &Case) -> Vec<Self> {
         match &entry.design {
             Design::Arm(chain) | Design::Loop(chain) => {
-                let links = of_links(chain, case);
-                links.into_iter().chain(case.pose.iter().flat_map(of_pose)).collect()
+                let links = of_links(chain, case).into_iter().chain(of_axes(chain));
+                links.chain(case.pose.iter().flat_map(of_pose)).collect()
             }
-            Design::Platform(_) => case.legs_squared.iter().flat_map(of_legs).collect(),
+            Design::Platform(platform) => {
+                case.legs_squared.iter().flat_map(of_legs).chain(of_points(platform)).collect()
+            }
         }
     }
 
@@ -63,9 +79,6 @@ impl Setting {
         let one = |name: &String| {
             all.iter().find(|one| one.name == *name).cloned().ok_or_else(|| {
                 let known: Vec<&str> = all.iter().map(|one| one.name.as_str()).collect();
-                if known.is_empty() {
-                    return Error::Unsupported(format!("the symbol {name}, as axes given by screws are no parameters"));
-                }
                 Error::Invalid(format!("found the symbol {name}, expected some of {}", known.join(", ")))
             })
         };
@@ -103,6 +116,26 @@ impl Setting {
                     *pose = Placement::from_motion_exact(motion);
                 }
             }
+            Place::Turn(k) => {
+                if let Some(pose) = &mut case.pose {
+                    let (cos, sin) = exact_cos_sin(&angle());
+                    let turned = pose.exact.motion().then_after(&Motion::rotation_about(k, cos, sin));
+                    *pose = Placement::from_motion_exact(turned);
+                }
+            }
+            Place::AxisPoint(joint, k) => {
+                let (Design::Arm(chain) | Design::Loop(chain)) = &mut entry.design else { return };
+                let Geometry::Screws { joints, .. } = &mut chain.geometry else { return };
+                joints[joint].point[k] = number();
+            }
+            Place::Point(body, leg, k) => {
+                let Design::Platform(platform) = &mut entry.design else { return };
+                let points = if body == 0 { &mut platform.base } else { &mut platform.plate };
+                let place = points[leg].clone();
+                for point in points.iter_mut().filter(|point| **point == place) {
+                    point[k] = number();
+                }
+            }
             Place::Leg(k) => {
                 if let Some(squares) = &mut case.legs_squared {
                     squares[k] = Number::exact(Rational::from(value.square_ref()));
@@ -137,14 +170,46 @@ fn of_links(chain: &Chain, case: &Case) -> Vec<Setting> {
     table::all(joints, case.input.first()).into_iter().map(one).collect()
 }
 
+/// Returns a length or a coordinate.
+fn length(name: String, value: &Rational, place: Place) -> Setting {
+    let (variable, text, kind) = (name.replace('.', "_"), value.to_string(), Variable::Translation);
+    Setting { variable, name, value: Some(value.clone()), text, place, kind }
+}
+
 fn of_pose(pose: &Placement) -> Vec<Setting> {
-    let one = |k: usize| {
-        let (name, value) = (COORDINATES[k].to_owned(), pose.exact.translation[k].clone());
-        let text = value.to_string();
-        let (variable, kind) = (name.clone(), Variable::Translation);
-        Setting { variable, name, value: Some(value), text, place: Place::Coordinate(k), kind }
+    let position = (0..3).map(|k| length(COORDINATES[k].to_owned(), &pose.exact.translation[k], Place::Coordinate(k)));
+    let turns = (0..3).map(|k| {
+        let (name, variable) = (TURNS[k].to_owned(), format!("t{}", COORDINATES[k]));
+        let (value, text) = (Some(Rational::new()), "0".to_owned());
+        Setting { name, variable, value, text, place: Place::Turn(k), kind: Variable::Rotation }
+    });
+    position.chain(turns).collect()
+}
+
+/// Returns the coordinates of the points of axes in screws. The direction of an axis is a unit vector, whose coordinates are not independent.
+fn of_axes(chain: &Chain) -> Vec<Setting> {
+    let Geometry::Screws { joints, .. } = &chain.geometry else { return Vec::new() };
+    let has_point = |joint: &ScrewJoint| joint.kind != JointKind::Prismatic;
+    let coordinates = |(number, joint): (usize, &ScrewJoint)| {
+        let one = |(k, value): (usize, &Number)| {
+            length(format!("point{}.{}", number + 1, COORDINATES[k]), value.rational(), Place::AxisPoint(number, k))
+        };
+        joint.point.iter().enumerate().map(one).collect::<Vec<_>>()
     };
-    (0..3).map(one).collect()
+    joints.iter().enumerate().filter(|(_, joint)| has_point(joint)).flat_map(coordinates).collect()
+}
+
+/// Returns the coordinates of the points of a platform, of a point in which legs meet once.
+fn of_points(platform: &Platform<Number>) -> Vec<Setting> {
+    let of_body = |(body, points): (usize, &[[Number; 3]; 6])| {
+        let is_first = |leg: &usize| !points[..*leg].contains(&points[*leg]);
+        let one = |leg: usize, k: usize| {
+            let name = format!("{}{}.{}", BODIES[body], leg + 1, COORDINATES[k]);
+            length(name, points[leg][k].rational(), Place::Point(body, leg, k))
+        };
+        (0..6).filter(is_first).flat_map(|leg| (0..3).map(move |k| (leg, k))).map(|(leg, k)| one(leg, k)).collect::<Vec<_>>()
+    };
+    [&platform.base, &platform.plate].into_iter().enumerate().flat_map(of_body).collect()
 }
 
 fn of_legs(squares: &[Number; 6]) -> Vec<Setting> {

@@ -69,9 +69,9 @@ impl<'c> Table<'c> {
     /// input. Their variables are numbered from `first`.
     pub fn of(chain: &Chain, case: &'c Case, wanted: &[String], first: usize, with_input: bool) -> Result<Self> {
         let (Geometry::Dh(joints) | Geometry::ModifiedDh(joints)) = &chain.geometry else {
-            let message = "symbols for screw axes: the coordinates of a unit vector and of a point on its axis are not independent, so \
-                           that they cannot be kept as symbols; give the loop by DH parameters (convention = \"dh\"), whose \
-                           twists, lengths and offsets can";
+            let message = "symbols for all parameters of screw axes: the coordinates of a unit vector are not independent; name up to three \
+                           coordinates of points of the axes (--symbolic=point2.x), or give the loop by DH parameters (convention = \
+                           \"dh\"), whose twists, lengths and offsets can be kept";
             return Err(Error::Unsupported(message.to_owned()));
         };
         let mut table = Self { case, symbols: Vec::new(), numbers: Vec::new(), names: Vec::new() };

@@ -11,7 +11,7 @@ use crate::kinematics::chain::Placement;
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::forward::Forward;
 use crate::kinematics::screws::Held;
-use crate::mechanism::{Family, Joints, Solution};
+use crate::mechanism::{Family, FullMode, Joints, Solution};
 use crate::verdict::{Code, Proof, Status};
 use looproot_calculus::finite::finite;
 use nalgebra::DMatrix;
@@ -163,18 +163,22 @@ impl TaskArm {
             if let Some(tracer) = &mut tracer {
                 for q in middles(&found) {
                     tracer.follow_beside(&q);
+                    tracer.look_for_locked(&q);
                 }
             }
             last = Some(solution);
         }
-        let mut families = tracer.map_or_else(Vec::new, |tracer| tracer.families());
+        let (mut families, locked) =
+            tracer.map_or_else(Default::default, |tracer| (tracer.families(), tracer.locked()));
         // Those that the arm can run along stand first.
         let joints = Joints { variables: self.forward.variables(), limits: &self.limits };
         sort::by_key(&mut families, |family| !joints.is_inside(&family.sample));
         match (last, any) {
-            (Some(solution), Some(q)) if families.is_empty() => Ok(self.one_family(solution, q, pose, more)),
-            (Some(solution), None) if families.is_empty() => Ok(nothing_found(solution, more)),
-            (Some(solution), _) => Ok(traced(solution, families)),
+            (Some(solution), Some(q)) if families.is_empty() && locked.is_empty() => {
+                Ok(self.one_family(solution, q, pose, more))
+            }
+            (Some(solution), _) if families.is_empty() => Ok(nothing_found(solution, more, locked)),
+            (Some(solution), _) => Ok(traced(solution, families, locked)),
             (None, _) => {
                 Err(Error::UnsupportedMobility("the joint axes are dependent in every configuration".to_owned()))
             }
@@ -235,16 +239,23 @@ fn middles(found: &[Found]) -> Vec<Vec<f64>> {
     found.iter().filter(is_first).map(|found| found.mode.q.iter().map(|value| value.re).collect()).collect()
 }
 
-/// The answer with curves that were followed.
-fn traced(mut solution: Solution, families: Vec<Family>) -> Solution {
+/// The answer with curves that were followed, and configurations at which the arm is locked.
+fn traced(mut solution: Solution, families: Vec<Family>, locked: Vec<FullMode>) -> Solution {
     let dimension = families.iter().filter(|family| family.distance == 0.0).map(|family| family.dimension).max();
     moves(&mut solution, dimension.unwrap_or(1));
     let number = families.len();
+    let besides = match locked.len() {
+        0 => String::new(),
+        1 => ", and at one configuration the arm is locked".to_owned(),
+        count => format!(", and at {count} configurations the arm is locked"),
+    };
     solution.verdict.reason = format!(
         "the arm has 1 more freedom than the task has conditions: {number} families were followed from configurations with a joint \
-         held; that none is missed is not proved"
+         held{besides}; that none is missed is not proved"
     );
+    (solution.verdict.complex, solution.verdict.real) = (locked.len(), locked.len());
     solution.families = families;
+    solution.modes = locked;
     solution
 }
 
@@ -274,15 +285,17 @@ pub(super) fn out_of_reach(case: &Case, distance: (f64, f64)) -> Solution {
 }
 
 /// The answer where no choice of held joints reaches the pose: others may.
-fn nothing_found(mut solution: Solution, more: usize) -> Solution {
+fn nothing_found(mut solution: Solution, more: usize, locked: Vec<FullMode>) -> Solution {
     let verdict = &mut solution.verdict;
     (verdict.status, verdict.proof, verdict.code) = (Status::Incomplete, Proof::None, Code::TooFew);
-    (verdict.complex, verdict.real, verdict.certified, verdict.complex_complete) = (0, 0, 0, false);
-    verdict.reason = format!(
-        "not proved: no configuration was found with {more} joint{} held at some values",
-        if more == 1 { "" } else { "s" }
-    );
-    solution.modes = Vec::new();
+    (verdict.complex, verdict.real, verdict.certified, verdict.complex_complete) = (0, locked.len(), 0, false);
+    verdict.reason = if locked.is_empty() {
+        let joints = if more == 1 { "joint" } else { "joints" };
+        format!("not proved: no configuration was found with {more} {joints} held at some values")
+    } else {
+        "not proved: no configuration was found with a joint held at some values but those at which the arm is locked".to_owned()
+    };
+    solution.modes = locked;
     solution.families = Vec::new();
     solution.arm = Some(ArmAnswer::default());
     solution

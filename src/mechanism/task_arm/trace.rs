@@ -6,15 +6,19 @@ use crate::kinematics::closed_loop::{Layout, OpenLoop};
 use crate::kinematics::screws::Behind;
 use crate::kinematics::task::Task;
 use crate::kinematics::tolerance::{PoseError, Tolerance};
-use crate::mechanism::Family;
+use crate::mechanism::{Family, FullMode};
 use crate::mechanism::family::{Joints, Shape};
 use crate::solve::curve::{CLOSES_WITHIN, Curve, INPUT, Point};
 use crate::solve::explorer::{Explorer, Piece};
-use crate::solve::walk::{Trace, apart};
+use crate::solve::locked::locked;
+use crate::solve::walk::{Trace, apart, norm};
+use num_complex::Complex;
 use std::f64::consts::PI;
 
 /// A miss below this part of the reach is the rounding of a curve that was followed in f64.
 const ROUNDING: f64 = 1e-10;
+/// Two configurations at which the arm is locked are one where they are nearer: rounding of 1e-11 moves a double one by its root.
+const SAME: f64 = 1e-4;
 /// The error of a family is measured at this number of points.
 const LOOKED_AT: usize = 24;
 
@@ -29,6 +33,8 @@ pub(super) struct Tracer<'a> {
     /// What moves by every variable of a point.
     movers: [Mover; 7],
     found: Vec<Found>,
+    /// Configurations from which no curve leads away.
+    locked: Vec<Point>,
 }
 
 /// What a variable of the loop moves.
@@ -83,7 +89,7 @@ impl<'a> Tracer<'a> {
         let curve = Curve::new(&open, [false; 6], variables[0].variable);
         let scale = (0..7).map(|k| curve.unit(k)).fold(f64::MIN_POSITIVE, f64::max);
         let within = tolerance.angle.max(tolerance.length / scale).max(CLOSES_WITHIN);
-        Some(Self { of, pose, curve, within, tolerance, movers, found: Vec::new() })
+        Some(Self { of, pose, curve, within, tolerance, movers, found: Vec::new(), locked: Vec::new() })
     }
 
     /// Follows the families through a configuration, unless they are known. A configuration that only comes near the pose need
@@ -105,6 +111,46 @@ impl<'a> Tracer<'a> {
         if let Some(start) = Explorer::new(&self.curve, CLOSES_WITHIN).nearest(&self.point(q)) {
             self.follow_from(&start, CLOSES_WITHIN);
         }
+    }
+
+    /// Looks for a configuration at which the arm is locked, near the real part of a complex solution: two complex branches meet there.
+    pub(super) fn look_for_locked(&mut self, q: &[f64]) {
+        let Some(found) = locked(&self.curve, &self.point(q)) else { return };
+        let twin = self.twin(&found);
+        let turns = self.curve.turns();
+        let is_same = |known: &Point, point: &Point| norm(&apart(known, point, &turns)) < SAME;
+        let is_known =
+            |known: &Point| is_same(known, &found) || twin.as_ref().is_some_and(|twin| is_same(known, twin));
+        if !self.locked.iter().any(is_known) {
+            self.locked.push(found);
+        }
+    }
+
+    /// Returns the configurations at which the arm is locked: each is two solutions that coincide.
+    pub(super) fn locked(&self) -> Vec<FullMode> {
+        let joints = self.joints();
+        let mode = |point: &Point| {
+            let q = joints.placed(self.configuration(point));
+            let (closing, _) = self.curve.closure(point);
+            FullMode {
+                within_limits: (!joints.limits.is_empty()).then(|| joints.is_inside(&q)),
+                q: q.into_iter().map(Complex::from).collect(),
+                real: true,
+                multiplicity: 2,
+                residual: closing.defect,
+                condition: f64::INFINITY,
+                certified: false,
+                radius: f64::INFINITY,
+                near: false,
+                error: None,
+                platform: None,
+            }
+        };
+        self.locked.iter().map(mode).collect()
+    }
+
+    fn joints(&self) -> Joints<'_> {
+        Joints { variables: self.of.forward.variables(), limits: &self.of.limits }
     }
 
     /// The point of a configuration; where the pose is missed, with virtual joints that come near it.
@@ -206,7 +252,7 @@ impl<'a> Tracer<'a> {
 
     /// Returns the families found, cut by the joint limits.
     pub(super) fn families(&self) -> Vec<Family> {
-        let joints = Joints { variables: self.of.forward.variables(), limits: &self.of.limits };
+        let joints = self.joints();
         let family = |found: &Found| {
             let Found { piece, distance, within } = found;
             let explorer = Explorer::new(&self.curve, *within);

@@ -2,6 +2,7 @@
 
 use super::{Cells, Parameter, Subject, cells};
 use crate::algebra::approximation::simplest_between;
+use crate::derivation::Watch;
 use crate::error::{Error, Result};
 use crate::kinematics::closed_loop::Variable;
 use rayon::prelude::*;
@@ -82,7 +83,7 @@ pub fn cell_map(
             return None;
         }
         let exact = simple(from + (k as f64 + 0.5) * width, width, first.kind)?;
-        let found = match cells(&subject.with(&first, &exact), &second.name) {
+        let found = match cells(&subject.with(&first, &exact), &second.name, &Watch::none()) {
             Ok(cells) => Ok(cells),
             Err(Error::Unsupported(message)) => Err(message),
             Err(error) => return Some(Err(error)),

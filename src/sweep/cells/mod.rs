@@ -21,6 +21,7 @@ use crate::algebra::polynomial::Polynomial;
 use crate::algebra::real_roots::RealRoot;
 use crate::algebra::univariate::Univariate;
 use crate::assembly::wrapped;
+use crate::derivation::Watch;
 use crate::error::{Error, Result};
 use crate::kinematics::closed_loop::Variable;
 use crate::verdict::{Code, Proof};
@@ -138,14 +139,14 @@ pub struct Cells {
     pub verdict: CellsVerdict,
 }
 
-/// The cells of one parameter of a mechanism: an input, a link parameter, a coordinate `x`, `y`, `z` of the pose, a leg, or a coordinate
-/// of a point of a linkage.
+/// The cells of one parameter of a mechanism: what a derivation may have for a symbol. `watch` sees the values from which the closure
+/// polynomial is interpolated.
 ///
 /// # Errors
 /// [`Error::Invalid`] for an unknown parameter; [`Error::Unsupported`] where no closure polynomial in it is known.
-pub fn cells(subject: &impl Subject, parameter: &str) -> Result<Cells> {
+pub fn cells(subject: &impl Subject, parameter: &str, watch: &Watch<'_>) -> Result<Cells> {
     let parameter = subject.parameter(parameter)?;
-    subject.source(&parameter)?.cells(subject, &parameter)
+    subject.source(&parameter, watch)?.cells(subject, &parameter)
 }
 
 /// A bound of a cell, before its label is known.

@@ -29,18 +29,18 @@ pub struct Source {
 
 impl Source {
     /// Eliminated with the parameter as a variable, where the sweep has a route for that; else interpolated.
-    pub(super) fn of(entry: &Entry, case: &Case, setting: &Setting) -> Result<Self> {
+    pub(super) fn of(entry: &Entry, case: &Case, setting: &Setting, watch: &Watch<'_>) -> Result<Self> {
         let moved = Moved { case, place: setting.place, kind: setting.kind };
         if let (Some(chain), Ok(exact)) = (entry.chain(), Exact::moving(entry, moved)) {
             let joint = exact.output(0).map_or(0, |output| output.joint);
             let unknown = variable_name(chain, joint).unwrap_or_default();
             return Ok(Self { exact, unknown, is_probable: false, proof: Proof::Proved });
         }
-        Self::interpolated(entry, case, setting)
+        Self::interpolated(entry, case, setting, watch)
     }
 
-    fn interpolated(entry: &Entry, case: &Case, setting: &Setting) -> Result<Self> {
-        let derivation = derive_interpolated(entry, case, std::slice::from_ref(&setting.name), &Watch::none())?;
+    fn interpolated(entry: &Entry, case: &Case, setting: &Setting, watch: &Watch<'_>) -> Result<Self> {
+        let derivation = derive_interpolated(entry, case, std::slice::from_ref(&setting.name), watch)?;
         let none = || Error::Unsupported("there is no closure polynomial in the parameter and one unknown".to_owned());
         let found = derivation.polynomial.as_ref().ok_or_else(none)?;
         let names = derivation.names.list();
@@ -74,8 +74,9 @@ impl Source {
     pub(super) fn by_bases(
         at: &(dyn Fn(&Rational) -> Option<Equations> + Sync),
         parameter: &Parameter,
+        watch: &Watch<'_>,
     ) -> Result<Self> {
-        let polynomial = relation_by_bases(at, &parameter.name, &Watch::none())?;
+        let polynomial = relation_by_bases(at, &parameter.name, watch)?;
         let none = || Error::Unsupported("modes coincide at all values of the parameter".to_owned());
         let full = polynomial.degree(1) as usize;
         let exact = Exact::of_polynomial(&polynomial, parameter.kind, Variable::Translation, full).ok_or_else(none)?;
@@ -84,9 +85,9 @@ impl Source {
     }
 
     /// The relation of the first given joint of a linkage, or of a coordinate of a point, and the angle of a body.
-    pub(super) fn of_linkage(linkage: &Linkage, given: &[Given], coordinate: Option<&str>) -> Result<Self> {
+    pub(super) fn of_linkage(linkage: &Linkage, given: &[Given], coordinate: Option<&str>, watch: &Watch<'_>) -> Result<Self> {
         let LinkageRelation { exact, unknown, is_probable, proof, .. } =
-            LinkageRelation::of(linkage, given, coordinate)?;
+            LinkageRelation::of(linkage, given, coordinate, watch)?;
         Ok(Self { exact, unknown, is_probable, proof })
     }
 }

@@ -5,7 +5,7 @@ use super::subject::{Parameter, Subject};
 use crate::algebra::number::{Angle, HalfTangent, Number};
 use crate::catalogue::entry::InputValue;
 use crate::catalogue::{SpaceFile, sphere::turned};
-use crate::derivation::transfer;
+use crate::derivation::{Watch, transfer};
 use crate::error::{Error, Result};
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::motion::{cross, dot};
@@ -118,7 +118,7 @@ impl Subject for SphereCase {
         other
     }
 
-    fn source(&self, parameter: &Parameter) -> Result<Source> {
+    fn source(&self, parameter: &Parameter, watch: &Watch<'_>) -> Result<Source> {
         if let Some(source) = self.place_of(&parameter.name).and_then(|(_, joint)| self.by_transfer(joint)) {
             return Ok(source);
         }
@@ -127,7 +127,7 @@ impl Subject for SphereCase {
             let system = sphere::System::of(&other.linkage, &other.given).ok()?;
             Some((system.unknowns, system.equations))
         };
-        Source::by_bases(&at, parameter)
+        Source::by_bases(&at, parameter, watch)
     }
 
     fn real_modes(&self) -> Option<usize> {
@@ -192,7 +192,7 @@ impl Subject for SpaceCase {
         other
     }
 
-    fn source(&self, parameter: &Parameter) -> Result<Source> {
+    fn source(&self, parameter: &Parameter, watch: &Watch<'_>) -> Result<Source> {
         // Whether the value itself is exact says the case in which nothing else was rounded.
         let mut whole = self.clone();
         whole.file.cases[0].exact = true;
@@ -202,7 +202,7 @@ impl Subject for SpaceCase {
             let system = space::System::of(linkage, &case.given, &bodies(linkage)).ok()?;
             Some((system.unknowns, system.equations))
         };
-        Source::by_bases(&at, parameter)
+        Source::by_bases(&at, parameter, watch)
     }
 
     fn real_modes(&self) -> Option<usize> {

@@ -3,7 +3,7 @@
 use super::source::Source;
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::catalogue::entry::{Case, Entry};
-use crate::derivation::{Coordinate, Setting};
+use crate::derivation::{Coordinate, Setting, Watch};
 use crate::error::{Error, Result};
 use crate::kinematics::closed_loop::Variable;
 use crate::kinematics::linkage::{Accuracy, Given, Linkage, Pair};
@@ -43,7 +43,7 @@ pub trait Subject: Clone + Sync {
     ///
     /// # Errors
     /// [`Error::Unsupported`] where there is none.
-    fn source(&self, parameter: &Parameter) -> Result<Source>;
+    fn source(&self, parameter: &Parameter, watch: &Watch<'_>) -> Result<Source>;
 
     /// Returns the number of real modes that the solver lists, if it knows that none is missing.
     fn real_modes(&self) -> Option<usize>;
@@ -85,8 +85,8 @@ impl Subject for EntryCase {
         other
     }
 
-    fn source(&self, parameter: &Parameter) -> Result<Source> {
-        Source::of(&self.entry, &self.case, &self.setting(&parameter.name)?)
+    fn source(&self, parameter: &Parameter, watch: &Watch<'_>) -> Result<Source> {
+        Source::of(&self.entry, &self.case, &self.setting(&parameter.name)?, watch)
     }
 
     fn real_modes(&self) -> Option<usize> {
@@ -180,14 +180,14 @@ impl Subject for LinkageCase {
         other
     }
 
-    fn source(&self, parameter: &Parameter) -> Result<Source> {
+    fn source(&self, parameter: &Parameter, watch: &Watch<'_>) -> Result<Source> {
         let mut given = self.given.clone();
         let Some(place) = self.place_of(&parameter.name) else {
-            return Source::of_linkage(&self.linkage, &given, Some(&parameter.name));
+            return Source::of_linkage(&self.linkage, &given, Some(&parameter.name), watch);
         };
         // The relation is that of the first given joint.
         given.swap(0, place);
-        Source::of_linkage(&self.linkage, &given, None)
+        Source::of_linkage(&self.linkage, &given, None, watch)
     }
 
     fn real_modes(&self) -> Option<usize> {

@@ -72,7 +72,8 @@ impl Exact {
 
     /// The closure polynomials of the loop of an entry in which something runs.
     pub fn moving(entry: &Entry, moved: Moved<'_>) -> Result<Self, Code> {
-        let chain = entry.chain().ok_or(Code::NoExactRoute)?;
+        // The frame of an axis that runs is in no ring of fractions here.
+        let chain = entry.chain().filter(|_| !matches!(moved.place, Place::AxisPoint(..))).ok_or(Code::NoExactRoute)?;
         let locked = locked_variable(chain, moved.case).map_err(|_| Code::NoExactRoute)?;
         let layout = Layout::of(chain, locked).map_err(|_| Code::NoExactRoute)?;
         let turns = moved.kind == Variable::Rotation;

@@ -55,6 +55,11 @@ impl Running<'_> {
                 pose.translation[k] = CircleFraction::variable();
                 Some(pose.inverse())
             }
+            (Place::Turn(axis), _) => {
+                let pose = case.pose.as_ref()?.exact.map(CircleFraction::from_rational)?;
+                let (cos, sin) = self.turn.clone();
+                Some(pose.then_after(&Motion::rotation_about(axis, cos, sin)).inverse())
+            }
             _ => match (&case.pose, case.input.first()) {
                 (Some(pose), _) => pose.exact.inverse().map(CircleFraction::from_rational),
                 (None, Some(input)) => input.value.motion(),

@@ -233,8 +233,8 @@ pub struct DeriveOptions {
     #[arg(long)]
     pub json: bool,
     /// Keep link parameters and the input as symbols: all that are neither zero nor a right angle, or those named, as
-    /// a1,alpha2,d3,theta4; up to three are kept in any mechanism, among them x, y, z of a pose and leg1 to leg6; coordinates of
-    /// points in linkages, as crank.B.x; in space also lengths, as rod.length, and given joints; on the sphere sides, as crank.A.B, or as
+    /// a1,alpha2,d3,theta4; up to three are kept in any mechanism, among them x and turn_x of the tool at a pose, point2.x of axes in
+    /// screws, leg1 and base1.x of platforms; coordinates of points in linkages, as crank.B.x; in space also lengths, as rod.length, and given joints; on the sphere sides, as crank.A.B, or as
     /// crank_A_B in the transfer function, and given joints
     #[arg(
         long,

@@ -117,9 +117,7 @@ fn of_entry(options: &DeriveOptions, asked: &CaseOptions, mechanism: &str, mut e
     let (written, exit) = if let Some(list) = &options.symbolic {
         let names = symbols::names(list);
         let derived = symbols::watched(options, |watch| derive_with_symbols(&entry, case, &names, watch));
-        let Some(derivation) = derived.map_err(|error| in_place(error, mechanism, &entry))? else {
-            return Ok(Exit::Interrupted);
-        };
+        let derivation = derived.map_err(|error| in_place(error, mechanism, &entry))?;
         let written = if options.json {
             document(symbolic::json(&entry, index + 1, &derivation), &whole)
         } else if let Some(format) = options.format {
@@ -194,7 +192,7 @@ fn in_space(options: &DeriveOptions, mechanism: &str, file: &SpaceFile) -> Resul
         let (body, point, at) = file.point(asked)?;
         let given = &file.cases[index].given;
         let derived = symbols::watched(options, |watch| trace_in_space(&file.linkage, given, body, &at, watch));
-        let Some(curve) = derived.map_err(place)? else { return Ok(Exit::Interrupted) };
+        let curve = derived.map_err(place)?;
         let written = if options.json {
             format!("{}\n", ring_curve::json(&named, (&file.linkage.bodies[body].name, point), &curve))
         } else if options.quiet {
@@ -208,7 +206,7 @@ fn in_space(options: &DeriveOptions, mechanism: &str, file: &SpaceFile) -> Resul
     if let Some(list) = &options.symbolic {
         let names = symbols::names(list);
         let derived = symbols::watched(options, |watch| derive_in_space_with_symbols(file, index, &names, watch));
-        let Some(found) = derived.map_err(place)? else { return Ok(Exit::Interrupted) };
+        let found = derived.map_err(place)?;
         return with_symbols(options, mechanism, &named, &found);
     }
     let case = &file.cases[index];

@@ -4,6 +4,7 @@ use super::arguments::DeriveOptions;
 use super::exit::{Exit, Fault};
 use super::output::Output;
 use super::solve::stop_on_interrupt;
+use super::symbols::watched;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use looproot::internal::error::Error;
 use looproot::internal::kinematics::closed_loop::Variable;
@@ -45,7 +46,7 @@ pub fn run<S: Subject>(
                 );
                 return Err(Error::Invalid(message).into());
             }
-            let found = cells(subject, name).map_err(place)?;
+            let found = watched(options, |watch| cells(subject, name, watch)).map_err(place)?;
             let written = if options.json {
                 document(json(&found))
             } else if options.svg {

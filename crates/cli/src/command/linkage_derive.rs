@@ -54,10 +54,7 @@ pub fn run(options: &DeriveOptions, mechanism: &str, file: &LinkageFile) -> Resu
         };
         (written, if file.exact && equal.iter().all(|is_equal| *is_equal) { Exit::Complete } else { Exit::NotProved })
     } else if let (Some(asked), Some(list)) = (&options.trace, &options.symbolic) {
-        let Some(pair) = curve_with_symbols(options, (file, index), asked, list, &in_place)? else {
-            return Ok(Exit::Interrupted);
-        };
-        pair
+        curve_with_symbols(options, (file, index), asked, list, &in_place)?
     } else if let Some(asked) = &options.trace {
         let (name, point, derived) = if asked == "mass" {
             let masses = masses(file)?;
@@ -68,7 +65,7 @@ pub fn run(options: &DeriveOptions, mechanism: &str, file: &LinkageFile) -> Resu
             let derived = symbols::watched(options, |watch| trace(&file.linkage, &case.given, body, &place, watch));
             (file.linkage.bodies[body].name.as_str(), point, derived)
         };
-        let Some(curve) = derived.map_err(in_place)? else { return Ok(Exit::Interrupted) };
+        let curve = derived.map_err(in_place)?;
         let written = if options.json {
             format!("{}\n", report::curve_json(file, index + 1, name, point, &curve))
         } else if options.quiet {
@@ -82,7 +79,7 @@ pub fn run(options: &DeriveOptions, mechanism: &str, file: &LinkageFile) -> Resu
         let names = symbols::names(list);
         let derived =
             symbols::watched(options, |watch| derive_linkage_with_symbols(&file.linkage, &case.given, &names, watch));
-        let Some(found) = derived.map_err(in_place)? else { return Ok(Exit::Interrupted) };
+        let found = derived.map_err(in_place)?;
         let written = if options.json {
             format!("{}\n", symbolic::json(file, index + 1, &found))
         } else if options.quiet {
@@ -94,9 +91,7 @@ pub fn run(options: &DeriveOptions, mechanism: &str, file: &LinkageFile) -> Resu
         let is_proved = found.compared.is_none() && file.exact;
         (written, if is_proved { Exit::Complete } else { Exit::NotProved })
     } else {
-        let Some(derivation) = derived(options, &file.linkage, &case.given).map_err(in_place)? else {
-            return Ok(Exit::Interrupted);
-        };
+        let derivation = derived(options, &file.linkage, &case.given).map_err(in_place)?;
         let written = if let Some(format) = options.format {
             report::system(file, index + 1, &derivation, format)?
         } else if options.json {
@@ -121,29 +116,29 @@ pub fn run(options: &DeriveOptions, mechanism: &str, file: &LinkageFile) -> Resu
     Ok(exit)
 }
 
-/// Derives the closure polynomials, and of gears the relation of input and output where it is written; `None` if it was interrupted.
-fn derived(options: &DeriveOptions, linkage: &Linkage, given: &[Given]) -> Result<Option<LinkageDerivation>, Error> {
+/// Derives the closure polynomials, and of gears the relation of input and output where it is written.
+fn derived(options: &DeriveOptions, linkage: &Linkage, given: &[Given]) -> Result<LinkageDerivation, Error> {
     if options.quiet || linkage.joints.iter().all(|joint| !joint.is_gear()) {
-        return derive_linkage(linkage, given).map(Some);
+        return derive_linkage(linkage, given);
     }
     symbols::watched(options, |watch| derive_linkage_with_input(linkage, given, watch))
 }
 
-/// Derives the curve of a point with symbols; `None` if it was interrupted.
+/// Derives the curve of a point with symbols.
 fn curve_with_symbols(
     options: &DeriveOptions,
     (file, index): (&LinkageFile, usize),
     asked: &str,
     list: &str,
     in_place: &dyn Fn(Error) -> Error,
-) -> Result<Option<(String, Exit)>, Fault> {
+) -> Result<(String, Exit), Fault> {
     let (body, name, _) = file.point(asked)?;
     let point = file.linkage.bodies[body].points.iter().position(|(own, _)| own == name);
     let point = point.ok_or_else(|| Error::Invalid(format!("found no point {asked}, expected one of the file")))?;
     let (given, names) = (&file.cases[index].given, symbols::names(list));
     let derived =
         symbols::watched(options, |watch| trace_with_symbols(&file.linkage, given, (body, point), &names, watch));
-    let Some(found) = derived.map_err(in_place)? else { return Ok(None) };
+    let found = derived.map_err(in_place)?;
     let written = if options.json {
         format!("{}\n", symbolic::curve_json(file, index + 1, (&file.linkage.bodies[body].name, name), &found))
     } else if options.quiet {
@@ -152,7 +147,7 @@ fn curve_with_symbols(
         symbolic::curve_text(file, asked, &found)
     };
     let is_proved = found.compared.is_none() && file.exact;
-    Ok(Some((written, if is_proved { Exit::Complete } else { Exit::NotProved })))
+    Ok((written, if is_proved { Exit::Complete } else { Exit::NotProved }))
 }
 
 /// Returns the bodies with a mass, their centres and masses.

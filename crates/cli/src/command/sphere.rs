@@ -118,14 +118,14 @@ pub fn derive(options: &DeriveOptions, mechanism: &str, file: &SphereFile) -> Re
     };
     if names.iter().any(is_interpolated) {
         let derived = symbols::watched(options, |watch| derive_on_sphere_with_symbols(file, index, &names, watch));
-        let Some(found) = derived.map_err(in_place)? else { return Ok(Exit::Interrupted) };
+        let found = derived.map_err(in_place)?;
         return super::derive::with_symbols(options, mechanism, &ring::Named::on_sphere(file, index + 1), &found);
     }
     let (written, exit) = if let Some(asked) = &options.trace {
         let (body, point, place) = file.point(asked)?;
         let derived =
             symbols::watched(options, |watch| trace_on_sphere(&file.linkage, &case.given, body, &place, watch));
-        let Some(found) = derived.map_err(in_place)? else { return Ok(Exit::Interrupted) };
+        let found = derived.map_err(in_place)?;
         let written = if options.json {
             let name = (file.linkage.bodies[body].name.as_str(), point);
             format!("{}\n", report::trace_json(file, index + 1, name, &found))
