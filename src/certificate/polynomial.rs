@@ -39,8 +39,9 @@ fn integer(value: &Value) -> Result<Integer, Fault> {
     let written = text(value)?;
     let digits = written.strip_prefix('-').unwrap_or(written);
     let is_whole = !digits.is_empty() && digits.len() <= LONGEST && digits.bytes().all(|b| b.is_ascii_digit());
-    match written.parse() {
-        Ok(number) if is_whole => Ok(number),
+    match written.parse::<Integer>() {
+        // Zeros in front, and a sign of 0, are another way to write the same number.
+        Ok(number) if is_whole && number.to_string() == written => Ok(number),
         _ => unreadable(format!("found `{}`, expected the digits of a whole number", shortened(&written))),
     }
 }

@@ -110,6 +110,9 @@ impl FourBar {
     /// is not 0, and of a line the point nearest to the origin; `None` if the axis is 0, or a square negative. Mirrored at the plane
     /// z = 0 all of it is as good.
     pub(super) fn written(&self) -> Option<Value> {
+        if self.axis.iter().all(|x| *x == 0) {
+            return None;
+        }
         let mut axis = primitive(&self.axis).map(Rational::from);
         let mut place = self.place.clone();
         if !matches!(self.output, Output::Circle { .. }) {

@@ -23,6 +23,8 @@ const MOST_STEPS: usize = 1 << 24;
 const MOST_OPEN: usize = 1 << 14;
 /// Assemblies that are listed beside given joint values: as many as a general arm has.
 pub const MOST_NEAR: usize = 16;
+/// Real assemblies that are listed where none is the nearest one: as many as a page of a table or two.
+pub const MOST_REAL: usize = 128;
 
 /// Numbers of assemblies, with multiplicity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -183,12 +185,12 @@ impl<'a> Dyads<'a> {
         walk.count(&self.start::<BoundedHalf<f64>>()?, &all)
     }
 
-    /// Returns the real assemblies, [`MOST_NEAR`] at most, that are nearest to these values of joints, radians or metres. Joints without
+    /// Returns the real assemblies, so many at most, that are nearest to these values of joints, radians or metres. Joints without
     /// a value do not count.
     ///
     /// # Errors
     /// As [`Dyads::count`].
-    pub fn nearest(&self, near: &[Option<f64>]) -> Result<Nearest, Halt> {
+    pub fn nearest(&self, near: &[Option<f64>], most: usize) -> Result<Nearest, Halt> {
         let mut open = BinaryHeap::new();
         open.push(Open { cost: 0.0, path: Vec::new(), state: self.start::<BoundedHalf<f64>>()? });
         let mut states = Vec::new();
@@ -199,7 +201,7 @@ impl<'a> Dyads<'a> {
             }
             if path.len() == self.groups.len() {
                 states.push(self.listed(&path)?);
-                if states.len() == MOST_NEAR {
+                if states.len() == most {
                     return Ok(Nearest { states, is_all: open.is_empty() });
                 }
                 continue;

@@ -36,19 +36,41 @@ pub(super) fn follow(
 }
 
 /// Whether a later motion is one of a group that the motion of an earlier one, solved in the branch `before`, leaves as it is: it joins
-/// no more clusters there than in the branch `behind` that group.
+/// as many clusters there as in the branch `behind` that group, once the groups between are placed that the earlier motion leaves as they
+/// are, too. Those that stand on it are placed behind it alone.
 fn is_apart(linkage: &Linkage, motion: &Family, before: &State, behind: &State, later: &[Group]) -> bool {
     if !matches!(motion.kind, FamilyKind::Dyad | FamilyKind::Spin) {
         return false;
     }
-    let Some(group) = later.iter().find(|group| motion.joints.iter().all(|joint| group.joints.contains(joint))) else {
-        return false;
-    };
-    let clusters = |state: &State| {
-        let of = |joint: &usize| linkage.joints[*joint].of.map(|body| state.bodies[body].0);
-        group.joints.iter().flat_map(of).collect::<BTreeSet<usize>>().len()
-    };
-    clusters(before) == clusters(behind)
+    let [mut without, mut with] = [before, behind].map(|state| state.bodies.iter().map(|body| body.0).collect::<Vec<_>>());
+    for group in later {
+        let bodies: Vec<usize> = group.joints.iter().flat_map(|joint| linkage.joints[*joint].of).collect();
+        let joined = |clusters: &[usize]| bodies.iter().map(|body| clusters[*body]).collect::<BTreeSet<usize>>();
+        let (one, other) = (joined(&without), joined(&with));
+        // A gear may turn a body with the motion of others, wherever it stands.
+        let is_left = group.gears.is_empty() && one.len() == other.len();
+        if motion.joints.iter().all(|joint| group.joints.contains(joint)) {
+            return is_left;
+        }
+        let place = |clusters: &mut [usize], joined: &BTreeSet<usize>| {
+            let Some(first) = joined.first() else { return };
+            clusters.iter_mut().filter(|cluster| joined.contains(cluster)).for_each(|cluster| *cluster = *first);
+        };
+        if is_left {
+            place(&mut without, &one);
+        }
+        place(&mut with, &other);
+    }
+    false
+}
+
+/// How a motion goes on at one of its places.
+struct Further {
+    state: State,
+    dimension: usize,
+    is_proved: bool,
+    /// Whether no other motion there may be one all along this one, which would have a larger dimension.
+    is_all: bool,
 }
 
 fn follow_one(linkage: &Linkage, family: &mut Family, before: &State, later: &[Group], asked: Asked<'_>) -> bool {
@@ -56,23 +78,29 @@ fn follow_one(linkage: &Linkage, family: &mut Family, before: &State, later: &[G
     let is_proved = matches!(family.kind, FamilyKind::Dyad | FamilyKind::Spin);
     let go_on = |sample: &State| {
         let found = attempt(linkage, sample, later, SHALLOW, false, asked).ok()?;
+        // Another motion beside the first takes no part in that. Where it does, the first may have to stand still.
+        let (beside, others): (Vec<Family>, Vec<Family>) = found.curves.into_iter().filter(|other| other.state.real).partition(
+            |other| is_one(&other.state) && is_apart(linkage, other, before, sample, later),
+        );
         let is_regular = |state: &State| state.real && state.multiplicity == sample.multiplicity;
-        if let Some(state) = found.modes.into_iter().find(is_regular) {
-            return Some((state, family.dimension, is_proved));
-        }
-        // Another one moves beside the first, which takes no part in that. Where it does, the first may have to stand still.
-        let moves = |other: &Family| {
-            other.state.real && is_one(&other.state) && is_apart(linkage, other, before, sample, later)
+        let further = match beside.into_iter().max_by_key(|other| other.dimension) {
+            Some(other) => (other.state, family.dimension + other.dimension, is_proved && other.is_proved),
+            None => (found.modes.into_iter().find(is_regular)?, family.dimension, is_proved),
         };
-        let other = found.curves.into_iter().find(moves)?;
-        Some((other.state, family.dimension + other.dimension, is_proved && other.is_proved))
+        let (state, dimension, is_proved) = further;
+        Some(Further { state, dimension, is_proved, is_all: others.is_empty() })
     };
-    let Some((state, dimension, is_proved)) = [&family.state].into_iter().chain(&family.samples).find_map(go_on) else {
-        return false;
-    };
-    (family.state, family.dimension, family.is_proved) = (state, dimension, is_proved);
+    let mut found: Option<Further> = None;
+    for sample in [&family.state].into_iter().chain(&family.samples) {
+        if found.as_ref().is_some_and(|found| found.is_all) {
+            break;
+        }
+        found = go_on(sample).filter(|next| found.is_none() || next.is_all).or(found);
+    }
+    let Some(Further { state, dimension, is_proved, is_all }) = found else { return false };
+    (family.state, family.dimension, family.is_proved) = (state, dimension, is_proved && is_all);
     family.kind = FamilyKind::Followed;
-    true
+    is_all
 }
 
 /// Assemblies of all bodies from groups that were solved as one.

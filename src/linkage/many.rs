@@ -2,15 +2,19 @@
 
 use super::answer::{LinkageAnswer, LinkageGroup, LinkageMode, mode};
 use super::assembly::{Asked, MOST_BRANCHES, groups_of};
-use super::count::{Count, Dyads, Halt, Nearest};
+use super::count::{Count, Dyads, Halt, MOST_NEAR, MOST_REAL, Nearest};
 use super::groups::Group;
+use super::state::State;
 use crate::error::{Error, Result};
 use crate::kinematics::linkage::{Accuracy, Given, Linkage};
 use crate::verdict::{Code, Proof, Status, Verdict};
 use std::time::Instant;
 
-/// Counts the assemblies of a linkage that falls into so many dyads that they are not listed; `None` for others. Where values of joints
-/// are given, the assemblies nearest to them are listed, and the others are not counted.
+/// Dyads beyond which the branches of complex assemblies are not followed for the real ones: 1024 of them take a second.
+const MANY: usize = 10;
+
+/// Lists the real assemblies of a linkage that falls into many dyads, or counts all where they are too many for a list; `None` for others.
+/// Where values of joints are given, the assemblies nearest to them are listed, and the others are not counted.
 ///
 /// # Errors
 /// As [`groups_of`], and where there are more branches than are counted.
@@ -22,7 +26,8 @@ pub fn of_many(
 ) -> Result<Option<LinkageAnswer>> {
     let start = Instant::now();
     let groups = groups_of(linkage, given)?.list;
-    if groups.len() <= MOST_BRANCHES.ilog2() as usize {
+    let is_listed = groups.len() <= MOST_BRANCHES.ilog2() as usize;
+    if groups.len() <= MANY || (is_listed && (asked.complex || asked.near.is_some())) {
         return Ok(None);
     }
     let Some(dyads) = Dyads::of(linkage, given, &groups, asked.stop) else { return Ok(None) };
@@ -49,25 +54,38 @@ pub fn of_many(
         ))),
     };
     let rounded = Proof::Proved.of_rounded(accuracy != Accuracy::Exact);
+    let all_real = |states: &[State]| {
+        let modes: Vec<LinkageMode> = states.iter().map(|state| mode(linkage, state)).collect();
+        let real = modes.iter().map(|mode| mode.multiplicity).sum();
+        (Verdict { complex_complete: false, certified: modes.len(), ..of_all_real(real, rounded) }, modes)
+    };
     let Some(near) = asked.near else {
+        let none = vec![None; linkage.joints.len()];
+        let found = (!asked.complex).then(|| dyads.nearest(&none, MOST_REAL));
+        if let Some(Ok(Nearest { states, is_all: true })) = found {
+            let (verdict, modes) = all_real(&states);
+            return Ok(Some(LinkageAnswer { listed: true, ..answer(verdict, modes) }));
+        }
+        if is_listed {
+            return Ok(None);
+        }
         return Ok(Some(match dyads.count() {
             Ok(count) => answer(of_count(count, rounded, groups.len()), Vec::new()),
             Err(halt) => answer(unproved(&stopped(halt)?, 0), Vec::new()),
         }));
     };
-    Ok(Some(match dyads.nearest(near) {
+    Ok(Some(match dyads.nearest(near, MOST_NEAR) {
         Ok(Nearest { states, is_all }) => {
-            let modes: Vec<LinkageMode> = states.iter().map(|state| mode(linkage, state)).collect();
-            let real = modes.iter().map(|mode| mode.multiplicity).sum();
+            let (verdict, modes) = all_real(&states);
             let verdict = if is_all {
-                Verdict { complex_complete: false, certified: modes.len(), ..of_all_real(real, rounded) }
+                verdict
             } else {
                 let reason = format!(
                     "the {} nearest to the given values are listed, nearest first; the others, of {} dyads, are not counted",
                     modes.len(),
                     groups.len()
                 );
-                unproved(&reason, real)
+                unproved(&reason, verdict.real)
             };
             LinkageAnswer { listed: is_all, ..answer(verdict, modes) }
         }

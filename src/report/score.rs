@@ -158,7 +158,12 @@ fn scientific(number: &str) -> String {
 }
 
 fn escaped(words: &str) -> String {
-    let one = |c: char| if "#$%&_{}".contains(c) { format!("\\{c}") } else { c.to_string() };
+    let one = |c: char| match c {
+        '#' | '$' | '%' | '&' | '_' | '{' | '}' => format!("\\{c}"),
+        // A line break would end a comment.
+        c if c.is_control() => " ".to_owned(),
+        c => c.to_string(),
+    };
     words.chars().map(one).collect()
 }
 

@@ -8,8 +8,13 @@
 use super::curve::{CLOSES_WITHIN, Curve, Point};
 use crate::kinematics::motion::cross;
 use looproot_calculus::finite::finite;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, SMatrix, Vector6};
 
+/// Steps towards closing alone, before those to a singular configuration: from as far as a radian away 9 of 10 starts lead to one then, and
+/// 3 of 10 without them.
+const TOWARDS: usize = 8;
+/// Joins the square of the singular values there, so that steps along the smallest ones stay short.
+const DAMPING: f64 = 1e-6;
 /// Steps at most: they converge quadratically from nearby.
 const STEPS: usize = 30;
 /// A step is no longer: the cosine of half a radian is linear to an eighth.
@@ -74,20 +79,40 @@ impl Corank {
     }
 }
 
+/// A step to where the loop is closed better: of least squares, and damped.
+fn towards(curve: &Curve, at: &Point) -> Option<Point> {
+    let (closing, jacobian) = curve.closure(at);
+    let entry = |i: usize, j: usize| {
+        let product: f64 = (0..7).map(|k| jacobian[i][k] * jacobian[j][k]).sum();
+        product + if i == j { DAMPING } else { 0.0 }
+    };
+    let solved = SMatrix::<f64, 6, 6>::from_fn(entry).lu().solve(&Vector6::from(closing.residual))?;
+    Some(std::array::from_fn(|k| -(0..6).map(|i| jacobian[i][k] * solved[i]).sum::<f64>()))
+}
+
+/// Goes a step, or a part of it. Returns its length.
+fn go(at: &mut Point, step: &[f64]) -> f64 {
+    let size = step.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    let part = (LONGEST / size).min(1.0);
+    for (value, along) in at.iter_mut().zip(step) {
+        *value += part * along;
+    }
+    size
+}
+
 /// The configuration near `start` that closes a loop of seven variables and at which it is locked: no curve of real configurations leads
 /// away from it. `None` where the steps lead to no such one.
 #[must_use]
 pub fn locked(curve: &Curve, start: &Point) -> Option<Point> {
     let mut at = *start;
+    for _ in 0..TOWARDS {
+        let step = towards(curve, &at)?;
+        go(&mut at, &step);
+    }
     for _ in 0..STEPS {
         let here = Corank::of(curve, &at)?;
         let step = finite(here.rows.clone()).svd(true, true).solve(&finite(here.right.clone()), RANK).ok()?;
-        let size = step.amax();
-        let part = (LONGEST / size).min(1.0);
-        for (value, along) in at.iter_mut().zip(&step) {
-            *value += part * along;
-        }
-        if size < CONVERGED {
+        if go(&mut at, step.as_slice()) < CONVERGED {
             let left = (&here.right - &here.rows * &step).amax();
             let [a, b, c] = here.form;
             let is_definite = a * c - b * b > RANK * (a.abs() + c.abs()).powi(2);

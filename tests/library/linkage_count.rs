@@ -134,3 +134,37 @@ fn more_dyads_than_are_listed_are_counted_and_the_nearest_assemblies_are_listed(
         assert!(answer.modes[k].residual < 1e-12 && answer.modes[k].radius < 1e-9);
     }
 }
+
+/// A chain of four-bars, each on the rocker of the one before: few of its 4096 assemblies are real.
+#[test]
+fn real_assemblies_of_many_dyads_are_listed_without_the_complex_ones() {
+    let count = 12;
+    let (mut bodies, mut ground) = (String::from("b0 = { O = 0, P0 = 1 }\n"), String::from("O = 0"));
+    let mut joints = String::from("{ name = \"O\", type = \"R\", of = [\"g\", \"b0\"] },\n");
+    for k in 0..count {
+        let (coupler, rocker, before) = (2 * k + 1, 2 * k + 2, 2 * k);
+        let _ = write!(ground, ", S{k} = {}", 3 + 3 * k);
+        let _ = writeln!(
+            bodies,
+            "b{coupler} = {{ P{k} = 0, Q{k} = 3 }}\nb{rocker} = {{ Q{k} = 0, S{k} = 2, P{} = [3, 1] }}",
+            k + 1
+        );
+        let _ = writeln!(joints, "{{ name = \"P{k}\", type = \"R\", of = [\"b{before}\", \"b{coupler}\"] }},");
+        let _ = writeln!(joints, "{{ name = \"Q{k}\", type = \"R\", of = [\"b{coupler}\", \"b{rocker}\"] }},");
+        let _ = writeln!(joints, "{{ name = \"S{k}\", type = \"R\", of = [\"b{rocker}\", \"g\"] }},");
+    }
+    let file = file(&format!(
+        "title = \"chain\"\n[mechanism]\nkind = \"linkage\"\nspace = \"plane\"\nground = \"g\"\njoints = [\n{joints}]\n\
+         [mechanism.bodies]\ng = {{ {ground} }}\n{bodies}[[input]]\njoint = \"O\"\nangle = \"70 deg\"\n"
+    ));
+    let (linkage, case) = (&file.linkage, &file.cases[0]);
+    let stop = AtomicBool::new(false);
+    let asked = Asked { complex: false, stop: &stop, near: None };
+    let answer = of_many(linkage, &case.given, file.accuracy(case), asked).unwrap().unwrap();
+    let verdict = &answer.verdict;
+    assert!(answer.listed && verdict.real == answer.modes.len() && !verdict.complex_complete, "{}", verdict.reason);
+    assert_eq!(verdict.proof, Proof::Proved);
+    // The walk through all branches counts as many.
+    let counted = counted(&file).unwrap();
+    assert_eq!((counted.complex, counted.real), (1 << count, verdict.real));
+}

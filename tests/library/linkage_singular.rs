@@ -105,6 +105,30 @@ fn groups_that_stand_on_a_motion_follow_it() {
     assert!(family.sample.real && family.sample.residual < 1e-12);
 }
 
+/// The rod c and the rod below turn about one joint of k. What hangs on the moving group through k is not left as it is by its motion.
+#[test]
+fn a_motion_that_stands_on_another_one_adds_no_freedom() {
+    let bodies = json!({
+        "frame": { "P": [3, 0], "B": 0, "Q": [-3, 5], "D": [4, 5] }, "j": { "P": 0, "X": 3 }, "upper": { "X": 0, "B": 0, "Z": 4 },
+        "k": { "Q": 0, "Y": 3 }, "c": { "D": 0, "Y": 4 }, "f": { "Z": 0, "W": 3 }, "lower": { "W": 0, "Y": 0 }
+    });
+    let joint = |name: &str, of: [&str; 2]| json!({ "name": name, "type": "R", "of": of });
+    let joints = json!([
+        joint("P", ["frame", "j"]), joint("X", ["j", "upper"]), joint("B", ["frame", "upper"]), joint("Q", ["frame", "k"]),
+        joint("Y", ["k", "c"]), joint("D", ["frame", "c"]), { "name": "Y2", "type": "R", "of": ["k", "lower"], "at": "Y" },
+        joint("W", ["f", "lower"]), joint("Z", ["upper", "f"])
+    ]);
+    let mechanism =
+        json!({ "kind": "linkage", "space": "plane", "ground": "frame", "joints": joints, "bodies": bodies });
+    let text = json!({ "title": "spins", "mechanism": mechanism }).to_string();
+    let Any::Linkage(file) = any_from_text(&text, "test.json", Format::Json, &Options::default()).unwrap() else {
+        panic!("a linkage")
+    };
+    let answer = solve(&file.linkage, &file.cases[0].given, Accuracy::Exact).unwrap();
+    assert!(answer.families.iter().all(|family| family.dimension == 1) && !answer.families.is_empty());
+    assert_eq!(answer.verdict.self_motion, 1);
+}
+
 #[test]
 fn a_motion_on_which_nothing_can_stand_is_none() {
     // P and E are 1 apart at least: the dyad closes nowhere, or stretched in one real assembly. Complex ones move in both cases.

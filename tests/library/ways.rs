@@ -3,7 +3,7 @@
 
 use looproot::internal::benchmark::sample::{CHAINS, Set, rational_sample};
 use looproot::internal::catalogue::entry::Entry;
-use looproot::internal::catalogue::{Options, load};
+use looproot::internal::catalogue::{Format, Options, load, load_text};
 use looproot::internal::derivation::{ByWay, Way, derive_by};
 use looproot::internal::error::Error;
 use std::collections::BTreeSet;
@@ -62,6 +62,31 @@ fn ways_that_do_not_apply_say_why() {
     let general = load("general_7r", &Options::default()).unwrap();
     let message = by(&general, Way::Dual).unwrap_err().to_string();
     assert!(message.contains("real angle"), "{message}");
+}
+
+/// Minors of the four equations have a factor in common here; those of combinations of them have none.
+#[test]
+fn half_angle_tangents_serve_where_two_minors_have_a_common_factor() {
+    let text = r#"
+title = "CRRRRR"
+[mechanism]
+kind = "loop"
+convention = "dh"
+joints = [
+    { type = "C", a = "-1", tan_half_alpha = "1" },
+    { type = "R", a = "-1/2", tan_half_alpha = "-5/2", d = "4" },
+    { type = "R", a = "-1", tan_half_alpha = "-1/2", d = "-2/3" },
+    { type = "R", a = "-5/3", tan_half_alpha = "1", d = "-2/3" },
+    { type = "R", a = "2/3", tan_half_alpha = "3", d = "4/3" },
+    { type = "R", a = "-5/2", tan_half_alpha = "-1/2", d = "5" },
+]
+[[input]]
+joint = 3
+tan_half = "-3/2"
+"#;
+    let entry = load_text(text, "loop.toml", Format::Toml, &Options::default()).unwrap();
+    let found = by(&entry, Way::HalfAngle).unwrap();
+    assert_eq!((found.before, found.derivation.polynomial.unwrap().degree()), (32, 16));
 }
 
 /// Random loops of every sequence of unknowns that `bench accuracy --set loops` has.

@@ -11,6 +11,9 @@ use crate::elimination::kind::Elimination;
 use crate::error::Result;
 use rug::Rational;
 
+/// Combinations of four equations: any regular matrix without zeros serves.
+const MIXED: [[i32; 4]; 4] = [[1, 2, -1, 3], [2, -1, 3, 1], [-1, 3, 1, 2], [3, 1, 2, -2]];
+
 /// Derives the equations of the loop in half-angle tangents, and their resultants.
 pub(super) fn found(exact: &Exact, unknown: usize) -> Result<Found> {
     let none = |why: &str| refusal(Way::HalfAngle, why);
@@ -80,13 +83,31 @@ fn four(
         let c = p.coefficients_in(linear);
         [0, 1].map(|k| c.get(k).cloned().unwrap_or_else(Polynomial::zero))
     });
-    let minor = |i: usize, j: usize| parts[i][0].mul(&parts[j][1]).sub(&parts[i][1].mul(&parts[j][0]));
-    let matrix = |pairs: [[usize; 2]; 2]| {
-        let [f, g] = pairs.map(|[i, j]| minor(i, j));
-        sylvester(&f, &g, other, kept).map(|rows| PolynomialMatrix::of(&rows))
+    let determinants = |parts: &[[Polynomial<Rational>; 2]; 4]| {
+        let minor = |i: usize, j: usize| parts[i][0].mul(&parts[j][1]).sub(&parts[i][1].mul(&parts[j][0]));
+        let matrix = |pairs: [[usize; 2]; 2]| {
+            let [f, g] = pairs.map(|[i, j]| minor(i, j));
+            let matrix = PolynomialMatrix::of(&sylvester(&f, &g, other, kept)?);
+            let determinant = matrix.determinant();
+            (determinant.degree().is_some()).then_some((matrix, determinant))
+        };
+        matrix([[0, 1], [2, 3]]).zip(matrix([[0, 2], [1, 3]]))
     };
-    let both = [matrix([[0, 1], [2, 3]]), matrix([[0, 2], [1, 3]])];
-    let [Some(one), Some(two)] = both else { return Err(none("the equations have other unknowns")) };
+    // Two minors of special equations may have a factor in common: those of combinations of the equations have none.
+    let mixed = || -> [[Polynomial<Rational>; 2]; 4] {
+        let weight = |i: usize, j: usize| Rational::from(MIXED[i][j]);
+        std::array::from_fn(|i| {
+            [0, 1].map(|k| {
+                let terms = (0..4).map(|j| parts[j][k].scale(&weight(i, j)));
+                terms.fold(Polynomial::zero(), |sum, term| sum.add(&term))
+            })
+        })
+    };
+    let own = determinants(&parts).map(|found| (found, ""));
+    let found = own.or_else(|| determinants(&mixed()).map(|found| (found, " of four combinations of the equations")));
+    let (((matrix, one), (_, two)), of) = found.ok_or_else(|| {
+        none("the matrix of this loop is singular for every value of the unknown, also of combinations of the equations")
+    })?;
     let name = |variable: usize| exact.symbols.name(variable / 3);
     let steps = vec![
         start,
@@ -98,12 +119,12 @@ fn four(
             x = name(linear)
         ),
         format!(
-            "The resultants of the minors (1,2), (3,4) and (1,3), (2,4) by {} are determinants of Sylvester's matrix; what only one of them has \
+            "The resultants of the minors (1,2), (3,4) and (1,3), (2,4){of} by {} are determinants of Sylvester's matrix; what only one of them has \
              for a factor belongs to no solution.",
             name(other)
         ),
     ];
     let meaning = format!("Sylvester's matrix of two minors in the powers of {}", name(other));
-    let size = Matrix { rows: one.rows(), columns: one.columns(), entries: one.degree(), meaning };
-    Ok(Found { equations, steps, matrix: size, eliminants: vec![one.determinant(), two.determinant()] })
+    let size = Matrix { rows: matrix.rows(), columns: matrix.columns(), entries: matrix.degree(), meaning };
+    Ok(Found { equations, steps, matrix: size, eliminants: vec![one, two] })
 }

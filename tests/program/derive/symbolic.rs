@@ -4,7 +4,7 @@ use super::{entry, named, real, run, solved};
 use looproot::internal::catalogue::entry::{Case, Design, Entry, Input, InputValue};
 use looproot::internal::derivation::transference::SpatialFourBar;
 use looproot::internal::derivation::{Symbolic, Watch, derive, derive_symbolic, derive_with_symbols};
-use looproot::internal::kinematics::chain::{Chain, Geometry, Joint, JointKind};
+use looproot::internal::kinematics::chain::{Chain, Geometry, Joint, JointKind, Placement};
 use looproot_algebra::number::{Angle, HalfTangent, Number};
 use looproot_algebra::polynomial::Polynomial;
 use looproot_algebra::text::Format;
@@ -334,9 +334,11 @@ fn at_the_numbers(derived: &Symbolic) -> Univariate<Integer> {
 /// The numbers of the file are none of the values between which the polynomial was interpolated.
 #[test]
 fn interpolated_polynomials_are_those_of_the_numbers() {
-    for (path, symbols, degrees) in
-        [("loop/c5r_angle.toml", &["a2"][..], [16, 8]), ("arm/puma560.toml", &["z"], [8, 8])]
-    {
+    for (path, symbols, degrees) in [
+        ("loop/c5r_angle.toml", &["a2"][..], [16, 8]),
+        ("arm/puma560.toml", &["z"], [8, 8]),
+        ("arm/puma560.toml", &["turn_z"], [8, 8]),
+    ] {
         let entry = entry(path);
         let symbols: Vec<String> = symbols.iter().map(|&name| name.to_owned()).collect();
         let derived = derive_with_symbols(&entry, &entry.cases[0], &symbols, &Watch::none()).unwrap();
@@ -348,6 +350,31 @@ fn interpolated_polynomials_are_those_of_the_numbers() {
         assert_eq!(polynomial.displayed.polynomial.degree(derived.values[0].0), degrees[1], "{path}");
         let found = derived.substituted(&entry, &entry.cases[0]).unwrap();
         assert!(found.solutions > 0 && found.largest < 1e-8, "{path}: {found:?}");
+    }
+}
+
+/// A turn of the tool is one about its own axis: the polynomial at a value of the turn is that of the pose turned so.
+#[test]
+fn a_turn_of_the_tool_is_about_its_own_axis() {
+    let entry = entry("arm/arm_3r3p.toml");
+    for (axis, name) in ["turn_x", "turn_y", "turn_z"].into_iter().enumerate() {
+        let mut derived = derive_with_symbols(&entry, &entry.cases[0], &[name.to_owned()], &Watch::none()).unwrap();
+        // The half-angle tangent 1/2 has the cosine 3/5 and the sine 4/5.
+        derived.values[0].1 = Rational::from((1, 2));
+        let found = at_the_numbers(&derived);
+        let (cos, sin) = (Rational::from((3, 5)), Rational::from((4, 5)));
+        let mut case = entry.cases[0].clone();
+        let pose = case.pose.as_ref().unwrap().exact.motion();
+        let mut turned = pose.clone();
+        let [one, two] = [(axis + 1) % 3, (axis + 2) % 3];
+        for row in 0..3 {
+            let [x, y] = [one, two].map(|k| pose.rotation[row][k].clone());
+            turned.rotation[row][one] = Rational::from(&x * &cos) + Rational::from(&y * &sin);
+            turned.rotation[row][two] = y * &cos - x * &sin;
+        }
+        case.pose = Some(Placement::from_motion_exact(turned));
+        let expected = derive(&entry, &case).unwrap().polynomial.unwrap().coefficients;
+        assert!(found == expected || found == expected.scale(&Integer::from(-1)), "{name}");
     }
 }
 

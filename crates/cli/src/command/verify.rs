@@ -25,7 +25,7 @@ pub fn run(options: &VerifyOptions) -> Result<Exit, Fault> {
             lines += &format!("{path}:{number}: holds: {holds}\n");
         }
         Err(fault) => {
-            lines += &format!("{path}:{number}: {fault}\n");
+            lines += &format!("{path}:{number}: {}\n", printable(&fault));
             exit = exit.max(Exit::NotProved);
         }
     });
@@ -33,10 +33,15 @@ pub fn run(options: &VerifyOptions) -> Result<Exit, Fault> {
     match read {
         Ok(()) => Ok(exit),
         Err(Broken::Unreadable(message) | Broken::Refused(message)) => {
-            complain(&format!("{path}: {message}"));
+            complain(&format!("{path}: {}", printable(&message)));
             Ok(Exit::Misuse)
         }
     }
+}
+
+/// Words in which texts of a certificate stand, in one line: a line break there would let it print lines of its own.
+fn printable(words: &impl ToString) -> String {
+    words.to_string().replace(char::is_control, "?")
 }
 
 fn text(path: &str) -> Result<String, Error> {
