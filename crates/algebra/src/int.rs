@@ -48,6 +48,15 @@ impl Int {
         }
     }
 
+    /// Returns the number as an element of a ring.
+    #[must_use]
+    pub(super) fn into_ring<R: Ring>(self) -> R {
+        match self.0 {
+            Repr::Small(n) => R::from_word(n),
+            Repr::Large(n) => R::from_large(n),
+        }
+    }
+
     /// Its sign: how it compares to 0.
     #[must_use]
     pub fn sign(&self) -> Ordering {
@@ -267,6 +276,10 @@ impl Ring for Int {
     }
     fn from_large(n: Integer) -> Self {
         Self::from(n)
+    }
+    #[inline(always)]
+    fn as_int(&self) -> Option<&Int> {
+        Some(self)
     }
     #[inline]
     fn neg(&self) -> Self {

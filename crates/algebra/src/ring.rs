@@ -4,6 +4,7 @@
 //! implemented for foreign types.
 
 use super::enclosure::Enclosure;
+use super::int::Int;
 use super::number::{Angle, HalfTangent};
 use num_complex::Complex;
 use rug::{Integer, Rational};
@@ -81,6 +82,12 @@ pub trait Ring: Clone + PartialEq + Debug {
 
     /// Returns the integer that an element of a ring of integers is, of any size. `None` in all other rings.
     fn to_large(&self) -> Option<Cow<'_, Integer>> {
+        None
+    }
+
+    /// Returns the integer itself, if the ring is that of the integers. `None` in all other rings.
+    #[inline(always)]
+    fn as_int(&self) -> Option<&Int> {
         None
     }
 

@@ -4,10 +4,9 @@
 use super::ring::Ring;
 use rug::{Integer, integer::Order};
 
-/// Integers modulo `2^BITS`, of which those of least absolute value are the elements.
+/// Integers modulo a power of two, of which those of least absolute value are the elements.
 pub(crate) trait Wrapping: Copy {
     const ZERO: Self;
-    const BITS: u32;
     fn from_wide(n: i128) -> Self;
     fn from_large(n: &Integer) -> Self;
     fn negative(self) -> Self;
@@ -26,7 +25,6 @@ macro_rules! word {
     ($($word:ty, $wrap:ident);*) => {$(
         impl Wrapping for $word {
             const ZERO: Self = 0;
-            const BITS: u32 = <$word>::BITS;
             #[inline(always)]
             #[allow(clippy::cast_possible_truncation, clippy::unnecessary_cast, reason = "the residue is meant")]
             fn from_wide(n: i128) -> Self {
@@ -69,7 +67,6 @@ impl<const N: usize> Wide<N> {
 #[expect(clippy::cast_possible_truncation, reason = "limbs are the halves of two words")]
 impl<const N: usize> Wrapping for Wide<N> {
     const ZERO: Self = Self([0; N]);
-    const BITS: u32 = 64 * N as u32;
 
     #[inline(always)]
     fn from_wide(n: i128) -> Self {
@@ -148,8 +145,9 @@ mod tests {
             sum.add_product(C::from_large(a), C::from_large(b));
             expected += a * b;
         }
-        let modulus = Integer::from(1) << C::BITS;
-        let half = Integer::from(1) << (C::BITS - 1);
+        let bits = 8 * u32::try_from(size_of::<C>()).unwrap();
+        let modulus = Integer::from(1) << bits;
+        let half = Integer::from(1) << (bits - 1);
         let mut residue: Integer = expected % &modulus;
         if residue >= half {
             residue -= &modulus;

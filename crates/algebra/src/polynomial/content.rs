@@ -6,18 +6,47 @@ use crate::ring::{Domain, Ring};
 use rug::{Integer, Rational};
 use std::cmp::Ordering;
 
+/// Coefficients that are looked at before a sum of multiples of all; and the fewest of them for that.
+const FIRST: usize = 2;
+const FEW: usize = 8;
+/// The first state of the generator of factors: that of the golden ratio.
+const SEED: u64 = 0x9e37_79b9_7f4a_7c15;
+
+/// Returns the greatest common divisor of a number, not negative, and coefficients.
+///
+/// It divides every sum of multiples of them. Where it is long after a few of them, which are multiples of parts of a common denominator, one such
+/// sum mostly shows that it is short, and the coefficients would give up their common factors one after the other.
+pub(crate) fn common_factor(number: &Int, coefficients: &[Int]) -> Int {
+    let (one, mut common) = (Int::one(), number.clone());
+    for (k, c) in coefficients.iter().enumerate() {
+        if common == one {
+            break;
+        }
+        if k == FIRST && coefficients.len() >= FEW && common.to_i64().is_none() {
+            common = common.gcd(&sum_of_multiples(coefficients));
+        }
+        common = common.gcd(c);
+    }
+    common
+}
+
+/// Returns a sum of multiples of numbers, by factors without a pattern.
+fn sum_of_multiples(numbers: &[Int]) -> Int {
+    let (mut sum, mut state) = (Int::zero(), SEED);
+    for n in numbers {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        sum.add_product(n, &Int::from((state >> 1).cast_signed()));
+    }
+    sum
+}
+
 impl Polynomial<Int> {
     /// Returns the greatest common divisor of the coefficients, never negative; zero only of the zero polynomial.
     #[must_use]
     pub fn content(&self) -> Int {
-        let mut content = Int::zero();
-        for c in &self.coefficients {
-            content = content.gcd(c);
-            if content == Int::one() {
-                break;
-            }
-        }
-        content
+        self.coefficients.split_first().map_or_else(Int::zero, |(first, others)| common_factor(&first.abs(), others))
     }
 
     /// Returns the polynomial divided by its content, its leading coefficient positive.

@@ -26,18 +26,20 @@ impl Polynomial<Int> {
             return gcd;
         }
         let content = self.content().gcd(&other.content());
-        let bounds = self.divisor_degrees(other);
+        // In one variable the first image modulo a prime tells as much.
+        let bounds = if self.shares_line(other) { None } else { self.divisor_degrees(other) };
         if bounds.as_ref().is_some_and(|bounds| bounds.iter().all(|bound| *bound == 0)) {
             return Self::constant(content);
-        }
-        if let Some(gcd) = self.divisor_on_line(other, true) {
-            return gcd;
         }
         let (a, b) = (self.monomial_content(), other.monomial_content());
         // The bounds hold for what is left of both as well, if they have no monomials.
         let bounds = bounds.filter(|_| a == Self::one() && b == Self::one());
         let rest = |polynomial: &Self, monomial: &Self| {
-            if bounds.is_some() { polynomial.primitive_part() } else { polynomial.div_exact(monomial).primitive_part() }
+            if *monomial == Self::one() {
+                polynomial.primitive_part()
+            } else {
+                polynomial.div_exact(monomial).primitive_part()
+            }
         };
         let (own, others) = (rest(self, &a), rest(other, &b));
         let by_value = bounds.and_then(|bounds| own.divisor_by_value(&others, &bounds));

@@ -12,6 +12,7 @@
 //! Kronecker 1882, Grundzüge einer arithmetischen Theorie der algebraischen Größen, § 4.
 
 use super::slots::{LIMB, Reader, Writer};
+use super::transform::{Placed, Transform};
 use crate::monomial::Packing;
 use crate::ring::Ring;
 use rug::{Integer, integer::Order};
@@ -73,6 +74,9 @@ impl Numbers<'_> {
 fn length(n: u64) -> usize {
     (u64::BITS - n.leading_zeros()) as usize
 }
+
+/// The slots are too short to tell whether there is a quotient.
+pub(super) struct Undecided;
 
 /// The substitution for two factors.
 pub(super) struct Kronecker<'d> {
@@ -136,7 +140,22 @@ impl<'d> Kronecker<'d> {
         let (a, b) = (limbs(self.slots.0), limbs(self.slots.1));
         let (short, long) = (a.min(b), a.max(b));
         let slots = (self.slots.0 + self.slots.1) as f64;
-        long / short * balanced(short) + COPY * 2.0 * (a + b) + SLOT * slots + TERM * self.terms as f64 + REST
+        let product = long / short * balanced(short) + COPY * 2.0 * (a + b);
+        let product = self.transform().map_or(product, |transform| transform.cost().min(product));
+        product + SLOT * slots + TERM * self.terms as f64 + REST
+    }
+
+    /// Returns another way to the product of long coefficients, if it is expected to be faster.
+    fn transform(&self) -> Option<Transform> {
+        let limbs = |slots: usize| (slots * self.width) as f64 / LIMB as f64 + 1.0;
+        let (a, b) = (limbs(self.slots.0), limbs(self.slots.1));
+        let cost = a.max(b) / a.min(b) * balanced(a.min(b));
+        Transform::new(self.width, self.slots.0 + self.slots.1 - 1).filter(|transform| transform.cost() < cost)
+    }
+
+    /// Returns coefficients beside the powers of X that their monomials become.
+    fn placed<'a>(&self, monomials: &[u64], large: &'a [Cow<Integer>]) -> Vec<Placed<'a>> {
+        self.slots(monomials).zip(large.iter().rev().map(|n| Cow::Borrowed(&**n))).collect()
     }
 
     /// Returns the powers of X that monomials become, the lowest first.
@@ -158,16 +177,38 @@ impl<'d> Kronecker<'d> {
         self.strides.iter().enumerate().map(term).sum()
     }
 
+    /// Returns the nanoseconds that a quotient is expected to take.
+    pub(super) fn quotient_cost(&self) -> f64 {
+        // GMP's divisions take up to three times as long as its products of divisors and quotients.
+        const DIVISION: f64 = 3.0;
+        let limbs = |slots: usize| (slots * self.width) as f64 / LIMB as f64 + 1.0;
+        let (a, b) = (limbs(self.slots.0.saturating_sub(self.slots.1)), limbs(self.slots.1));
+        let (short, long) = (a.min(b), a.max(b));
+        DIVISION * long / short * balanced(short)
+            + COPY * 4.0 * (a + b)
+            + SLOT * self.slots.0 as f64
+            + TERM * self.terms as f64
+            + REST
+    }
+
     /// Returns the product: monomials, decreasing, and coefficients.
     pub(super) fn product<R: Ring>(
         &self,
         (left, a): (&[u64], &Numbers),
         (right, b): (&[u64], &Numbers),
     ) -> (Vec<u64>, Vec<R>) {
+        let slots = self.slots.0 + self.slots.1 - 1;
+        if let (Numbers::Large(a), Numbers::Large(b)) = (a, b)
+            && let Some(transform) = self.transform()
+        {
+            let mut product = transform.product(&self.placed(left, a), &self.placed(right, b), slots);
+            let number = |slot: usize| Some(R::from_large(std::mem::take(&mut product[slot]))).filter(|c| !c.is_zero());
+            return self.collect(slots, number);
+        }
         let ((a, s), (b, t)) = (self.integer(left, a, self.slots.0), self.integer(right, b, self.slots.1));
         // Squares are cheaper.
         let product = if a == b { a.square() } else { a * b };
-        self.read(&product, self.slots.0 + self.slots.1 - 1, s != t)
+        self.read(&product, slots, s != t)
     }
 
     /// Returns monomials, decreasing, and coefficients of the greatest common divisor of both values, as if they were those
@@ -179,6 +220,45 @@ impl<'d> Kronecker<'d> {
     ) -> (Vec<u64>, Vec<R>) {
         let divisor = self.integer(left, a, self.slots.0).0.gcd(&self.integer(right, b, self.slots.1).0);
         self.read(&divisor, self.slots.0.min(self.slots.1), false)
+    }
+
+    /// Returns monomials, decreasing, and coefficients of the quotient of two polynomials if that of their values shows it: no
+    /// quotient where the values leave a remainder, `Err` where the slots are too short to tell.
+    ///
+    /// # Why the quotient is right
+    /// Let f and g be the polynomials, `X = 2^B` and `f(X) = g(X) q`; without such a q there is no quotient. Let Q be the polynomial with
+    /// `Q(X) = q`. If none of its degrees is above the difference of those of f and g, different monomials of `g Q` have different slots.
+    /// If, moreover, f and `g Q` have coefficients below `2^(B-2)` in absolute value, those of `g Q` being at most as many times the
+    /// products of those of g and Q as the shorter one has terms, then both have the same value at X, and are equal. All of this is checked.
+    pub(super) fn quotient<R: Ring>(
+        &self,
+        (left, a): (&[u64], &Numbers),
+        (right, b): (&[u64], &Numbers),
+        lower: &[u32],
+    ) -> Result<Option<(Vec<u64>, Vec<R>)>, Undecided> {
+        let slots = (self.slots.0 + 1).checked_sub(self.slots.1).ok_or(Undecided)?;
+        let ((f, s), (g, t)) = (self.integer(left, a, self.slots.0), self.integer(right, b, self.slots.1));
+        let (quotient, rest) = f.div_rem(g);
+        if rest.cmp0().is_ne() {
+            return Ok(None);
+        }
+        // The highest slot must hold what is left of the quotient, with its sign.
+        if quotient.significant_bits() as usize >= slots * self.width {
+            return Err(Undecided);
+        }
+        let mut reader = Reader::new(&quotient, self.width, slots, false);
+        let longest = (0..slots).map(|slot| reader.bits(slot)).max().unwrap_or(0);
+        let (monomials, coefficients) = self.read(&quotient, slots, s != t);
+        let terms = coefficients.len().min(right.len() / self.packing.words());
+        let bits = (b.bits() + longest + length(terms as u64)).max(a.bits());
+        let fits = |monomial: &[u64]| {
+            let within = |(v, degree): (usize, &u32)| {
+                self.packing.exponent(monomial, v) + lower.get(v).copied().unwrap_or(0) <= *degree
+            };
+            self.degrees.iter().enumerate().all(within)
+        };
+        let fit = bits + 2 <= self.width && monomials.chunks_exact(self.packing.words()).all(fits);
+        if fit { Ok(Some((monomials, coefficients))) } else { Err(Undecided) }
     }
 
     /// Returns monomials, decreasing, and coefficients of the polynomial that has a value at `X = 2^B` which fits so many

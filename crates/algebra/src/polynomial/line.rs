@@ -3,12 +3,16 @@
 use super::kronecker::balanced;
 use super::product::to_words;
 use super::slots::{LIMB, Reader, Writer};
+use super::transform::{Placed, Transform};
 use crate::monomial::Packing;
 use crate::ring::Ring;
 use rug::{Integer, integer::Order};
 
 /// The most slots for each pair of terms: beyond it, the terms are far between and multiplied one by one.
 const MOST_PER_PAIR: usize = 8;
+/// The most pairs of terms whose products are added up one by one, and the bits of the slots that two words then hold.
+const FEW: usize = 600;
+const WIDE: usize = 127;
 /// The nanoseconds for a slot, and for a pair of terms that are multiplied one by one: measured on a processor of 3 GHz.
 const SLOT: f64 = 3.0;
 const PAIR: f64 = 2.0;
@@ -63,12 +67,21 @@ impl Field {
         self.highest - self.lowest + 1
     }
 
+    /// Returns the slot of a monomial.
+    fn slot(&self, monomial: u64) -> usize {
+        // No other field is occupied.
+        usize::try_from(monomial >> self.shift).unwrap_or(0) - self.lowest
+    }
+
+    /// Returns the coefficients in their slots; `None` where they are no integers.
+    fn placed<'a, R: Ring>(&self, monomials: &[u64], coefficients: &'a [R]) -> Option<Vec<Placed<'a>>> {
+        monomials.iter().zip(coefficients).map(|(monomial, c)| Some((self.slot(*monomial), c.to_large()?))).collect()
+    }
+
     /// Returns the absolute value of the polynomial at `2^width`, divided by its lowest power, and whether it is negative.
     pub(super) fn value<R: Ring>(&self, width: usize, monomials: &[u64], numbers: &Numbers<R>) -> (Integer, bool) {
         let mut writer = Writer::new(width, self.slots());
-        // No other field is occupied.
-        let slot = |monomial: &u64| usize::try_from(monomial >> self.shift).unwrap_or(0) - self.lowest;
-        let slots = monomials.iter().rev().map(slot);
+        let slots = monomials.iter().rev().map(|monomial| self.slot(*monomial));
         if let Some(words) = &numbers.words {
             let negative = words.first().is_some_and(|n| *n < 0);
             if words.len() == self.slots() {
@@ -118,25 +131,41 @@ pub(super) fn product<R: Ring>(
     let (m, n) = (Numbers::new(a)?, Numbers::new(b)?);
     // A coefficient of the product is at most the sum of all of one factor times the largest of the other.
     let width = (m.sum + n.longest).min(n.sum + m.longest) + 2;
-    if slots > terms {
-        let limbs = |field: &Field| (field.slots() * width) as f64 / LIMB as f64 + 1.0;
-        let (short, long) = (limbs(&f).min(limbs(&g)), limbs(&f).max(limbs(&g)));
-        if long / short * balanced(short) + SLOT * slots as f64 > PAIR * pairs as f64 {
-            return None;
+    let lowest = ((f.lowest + g.lowest) as u64) << f.shift;
+    let monomials = || (0..slots as u64).rev().map(|slot| lowest + (slot << f.shift)).collect();
+    if let (Some(m), Some(n)) = (&m.words, &n.words)
+        && pairs <= FEW
+        && width <= WIDE
+    {
+        let mut sums = vec![0_i128; slots];
+        for (monomial, c) in left.iter().zip(m) {
+            let sums = &mut sums[f.slot(*monomial)..];
+            for (other, d) in right.iter().zip(n) {
+                sums[g.slot(*other)] += i128::from(*c) * i128::from(*d);
+            }
         }
+        return Some((monomials(), sums.into_iter().rev().map(R::from_wide).collect()));
+    }
+    let limbs = |field: &Field| (field.slots() * width) as f64 / LIMB as f64 + 1.0;
+    let (short, long) = (limbs(&f).min(limbs(&g)), limbs(&f).max(limbs(&g)));
+    let cost = long / short * balanced(short);
+    if slots > terms && cost + SLOT * slots as f64 > PAIR * pairs as f64 {
+        return None;
+    }
+    if let Some(transform) = Transform::new(width, slots).filter(|transform| transform.cost() < cost) {
+        let product = transform.product(&f.placed(left, a)?, &g.placed(right, b)?, slots);
+        return Some((monomials(), product.into_iter().rev().map(R::from_large).collect()));
     }
     let ((a, s), (b, t)) = (f.value(width, left, &m), g.value(width, right, &n));
     // Squares are cheaper.
     let product = if a == b { a.square() } else { a * b };
     let mut reader = Reader::new(&product, width, slots, s != t);
-    let lowest = ((f.lowest + g.lowest) as u64) << f.shift;
     let coefficients: Vec<R> = match width {
         ..65 => reader.words(slots).into_iter().map(R::from_word).collect(),
         65..129 => (0..slots).rev().map(|slot| R::from_wide(reader.pair(slot))).collect(),
         _ => (0..slots).rev().map(|slot| R::from_large(reader.large(slot))).collect(),
     };
-    let monomials: Vec<u64> = (0..slots as u64).rev().map(|slot| lowest + (slot << f.shift)).collect();
-    Some((monomials, coefficients))
+    Some((monomials(), coefficients))
 }
 
 #[cfg(test)]

@@ -34,6 +34,14 @@ const KNOWN_LIMBS: usize = 320;
 const MOST_LIMBS: usize = 1 << 14;
 
 impl Polynomial<Int> {
+    /// Returns whether one and the same variable occurs in both polynomials, which are not zero, and no other.
+    pub(super) fn shares_line(&self, other: &Self) -> bool {
+        let packing = self.packing;
+        packing.words() == 1
+            && packing.agrees(&other.packing)
+            && only_variable(packing, &self.monomials, &other.monomials).is_some()
+    }
+
     /// Returns the greatest common divisor of two polynomials that are not zero, if one and the same variable occurs in both and no other,
     /// and the values are short or, where that is `known` not to be constant, not too long; `None` where other ways have to decide.
     pub(crate) fn divisor_on_line(&self, other: &Self, known: bool) -> Option<Self> {

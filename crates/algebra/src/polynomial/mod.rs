@@ -24,6 +24,9 @@ mod sparse_gcd;
 mod square_free;
 mod substitution;
 mod sum;
+mod transform;
+
+pub(crate) use content::common_factor;
 
 use super::monomial::Packing;
 use super::ring::{Domain, Ring};

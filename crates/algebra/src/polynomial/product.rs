@@ -5,6 +5,7 @@ use super::kronecker::{Kronecker, Numbers};
 use super::limbs::{Factor, Sum};
 use super::planes::{Planes, Sums};
 use super::{Polynomial, Size, line, scattered, short};
+use crate::int::Int;
 use crate::monomial::Packing;
 use crate::ring::Ring;
 use rug::Integer;
@@ -26,6 +27,10 @@ const MOST_IN_BLOCKS: usize = 2;
 const SHORT: f64 = 1e3;
 /// Sums below these fit an i64, and an i128.
 const HALF: u128 = 1 << 63;
+/// Words of a factor that is collected in words, enough for 57 decimal digits; and of a sum: those of a product, and one for the sign and the sum of
+/// fewer than `2^63` products.
+const FACTOR: usize = 3;
+const SUM: usize = 2 * FACTOR + 1;
 const WHOLE: u128 = 1 << 127;
 
 /// Returns the coefficients as machine words, if all are such.
@@ -64,17 +69,20 @@ pub(super) fn bound(a: &[i64], b: &[i64]) -> u128 {
     sum_a.saturating_mul(max_b).min(sum_b.saturating_mul(max_a))
 }
 
-/// Returns a bound of the bits of the coefficients of the product, and of all sums on the way there; `None` where they are no integers.
-fn bits_of_product<R: Ring>(a: &[R], b: &[R]) -> Option<u32> {
-    let longest = |coefficients: &[R]| {
-        let bits = |c: &R| match c.to_wide() {
-            Some(n) => Some(u128::BITS - n.unsigned_abs().leading_zeros()),
-            None => Some(c.to_large()?.significant_bits()),
-        };
-        coefficients.iter().try_fold(0, |longest, c| Some(bits(c)?.max(longest)))
+/// Returns the coefficients as integers of any size, if they are such; those of most rings are not, which the first one tells.
+fn to_ints<R: Ring>(coefficients: &[R]) -> Option<Vec<&Int>> {
+    coefficients.iter().map(Ring::as_int).collect()
+}
+
+/// Returns a bound of the bits of the coefficients of the product, and of all sums on the way there.
+fn bits_of_product(a: &[&Int], b: &[&Int]) -> u32 {
+    let bits = |c: &&Int| match c.to_i64() {
+        Some(n) => u64::BITS - n.unsigned_abs().leading_zeros(),
+        None => c.to_large().map_or(0, |n| n.significant_bits()),
     };
+    let longest = |coefficients: &[&Int]| coefficients.iter().map(bits).max().unwrap_or(0);
     let terms = usize::BITS - a.len().min(b.len()).leading_zeros();
-    Some(longest(a)? + longest(b)? + terms)
+    longest(a) + longest(b) + terms
 }
 
 impl<R: Ring> Polynomial<R> {
@@ -136,10 +144,10 @@ impl<R: Ring> Polynomial<R> {
         {
             return Some(Self { packing, monomials, coefficients: words.into_iter().map(R::from_word).collect() });
         }
-        let (left, right) = ((left, &self.coefficients[..]), (right, &other.coefficients[..]));
-        let bits = bits_of_product(left.1, right.1)?;
-        let (monomials, coefficients) = short::wide_product(packing, &degrees, left, right, bits)?;
-        Some(Self { packing, monomials, coefficients })
+        let (a, b) = (to_ints(&self.coefficients)?, to_ints(&other.coefficients)?);
+        let (monomials, integers) =
+            short::wide_product(packing, &degrees, (left, &a), (right, &b), bits_of_product(&a, &b))?;
+        Some(Self { packing, monomials, coefficients: integers.into_iter().map(Int::into_ring).collect() })
     }
 
     /// Returns the product of few terms that fill most of what their degrees allow, as one product of long integers.
@@ -264,8 +272,8 @@ impl<R: Ring> Polynomial<R> {
         let pairs = self.len() as f64 * other.len() as f64;
         let large =
             if words.is_none() { to_large(&self.coefficients).zip(to_large(&other.coefficients)) } else { None };
-        let factors = |large: &[Cow<Integer>]| large.iter().map(|n| Factor::new(n)).collect::<Option<Vec<Factor>>>();
-        let short = large.as_ref().and_then(|(a, b)| factors(a).zip(factors(b)));
+        let factors = |c: &[R]| c.iter().map(|n| Factor::new(n.as_int()?)).collect::<Option<Vec<Factor<FACTOR>>>>();
+        let short = large.as_ref().and_then(|_| factors(&self.coefficients).zip(factors(&other.coefficients)));
         let numbers = match (&words, &large) {
             (Some((a, b)), _) => Some((Numbers::Words(a), Numbers::Words(b))),
             (None, Some((a, b))) => Some((Numbers::Large(a), Numbers::Large(b))),
@@ -315,9 +323,9 @@ impl<R: Ring> Polynomial<R> {
             (Some((a, b)), ..) => {
                 collect(&grid, &degrees, (left, a), (right, b), &mut |n: Triple| coefficients.push(n.to_ring()))
             }
-            (None, _, Some((a, b))) => {
-                collect(&grid, &degrees, (left, a), (right, b), &mut |n: Sum| coefficients.push(n.to_ring()))
-            }
+            (None, _, Some((a, b))) => collect(&grid, &degrees, (left, a), (right, b), &mut |n: Sum<SUM>| {
+                coefficients.push(n.to_int().into_ring());
+            }),
             (None, ..) => {
                 let (a, b) = (&self.coefficients[..], &other.coefficients[..]);
                 collect(&grid, &degrees, (left, a), (right, b), &mut |sum: R| coefficients.push(sum))

@@ -7,12 +7,22 @@
 use super::Polynomial;
 use super::blocks::{Blocks, Grid};
 use super::heap::{Heap, Key};
-use super::product::{CELLS, to_words};
+use super::kronecker::{Kronecker, Numbers, Undecided};
+use super::product::{CELLS, to_large, to_words};
+use super::slots::LIMB;
 use crate::monomial::Packing;
 use crate::ring::{Domain, Ring};
 
 /// Number of terms in an average block from which on boxes pay.
 const FEW: usize = 4;
+/// The least number of pairs of terms for which a quotient of long integers is thought of; the bits of its slots beyond those of all coefficients,
+/// for longer ones of the quotient, the number of terms and the sign; and the nanoseconds that a product of two terms takes otherwise, in words, in
+/// long integers, and for each pair of their limbs: measured on a processor of 3 GHz.
+const FEW_PAIRS: usize = 256;
+const MARGIN: usize = 12;
+const WORD_PAIR: f64 = 2.0;
+const PAIR: f64 = 60.0;
+const LIMB_PAIR: f64 = 0.5;
 
 /// A coefficient or a sum left the machine words.
 struct Overflow;
@@ -126,6 +136,9 @@ impl<D: Domain> Polynomial<D> {
             let (word, shift) = packing.place(variable);
             highest[word] |= u64::from(degree) << shift;
         }
+        if let Ok(quotient) = self.quotient_by_value(divisor, packing, &degrees, (&own, &other)) {
+            return quotient;
+        }
         let terms = || {
             // In machine words as long as they suffice.
             let wide: Option<Vec<i128>> = self.coefficients.iter().map(D::to_wide).collect();
@@ -142,6 +155,44 @@ impl<D: Domain> Polynomial<D> {
         };
         let (monomials, coefficients) = terms()?;
         Some(Self { packing, monomials, coefficients })
+    }
+
+    /// Returns the exact quotient, `None` if there is a remainder, as one quotient of long integers; `Err` where other ways are faster or have
+    /// to decide. All exponents are at most these degrees.
+    fn quotient_by_value(
+        &self,
+        divisor: &Self,
+        packing: Packing,
+        degrees: &[u32],
+        (own, other): (&[u64], &[u64]),
+    ) -> Result<Option<Self>, Undecided> {
+        // A look at all coefficients costs as much as a short division.
+        if self.len() * divisor.len() < FEW_PAIRS {
+            return Err(Undecided);
+        }
+        let a = to_words(&self.coefficients);
+        let b = to_words(&divisor.coefficients);
+        let (c, d);
+        let (a, b, price) = if let Some((a, b)) = a.as_ref().zip(b.as_ref()) {
+            (Numbers::Words(a), Numbers::Words(b), WORD_PAIR)
+        } else {
+            c = to_large(&self.coefficients).ok_or(Undecided)?;
+            d = to_large(&divisor.coefficients).ok_or(Undecided)?;
+            let (a, b) = (Numbers::Large(&c), Numbers::Large(&d));
+            let limbs = |bits: usize| (bits / LIMB + 1) as f64;
+            (a, b, PAIR + LIMB_PAIR * limbs(a.bits().saturating_sub(b.bits())) * limbs(b.bits()))
+        };
+        let width = a.bits().max(b.bits()) + MARGIN;
+        let substitution = Kronecker::with_width(packing, degrees, width, own, other).ok_or(Undecided)?;
+        let lower = divisor.degrees();
+        let cells = degrees.iter().enumerate().map(|(v, d)| (d - lower.get(v).unwrap_or(&0)) as usize + 1);
+        // The quotient has as many terms as its degrees allow, or as the dividend, if that has fewer.
+        let terms = cells.fold(1, usize::saturating_mul).min(self.len());
+        if substitution.quotient_cost() > price * terms as f64 * divisor.len() as f64 {
+            return Err(Undecided);
+        }
+        let quotient = substitution.quotient((own, &a), (other, &b), &lower)?;
+        Ok(quotient.map(|(monomials, coefficients)| Self { packing, monomials, coefficients }))
     }
 
     /// Returns the exact quotient by one term, which keeps the order of the terms.
@@ -377,5 +428,73 @@ impl<C: Coefficient> Work for Bench<'_, C> {
         }
         self.starts.push(self.cells.len());
         Ok(Found::Block)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::int::Int;
+    use proptest::prelude::*;
+    use rug::Integer;
+
+    type Poly = Polynomial<Int>;
+
+    fn polynomial(variables: usize, terms: usize) -> impl Strategy<Value = Poly> {
+        let number = (any::<i64>(), 0..64_u32, prop::sample::select(vec![0_u32, 0, 70, 400]))
+            .prop_map(|(n, less, more)| Int::from(Integer::from(n >> less) << more));
+        let term = (prop::collection::vec(0..7_u32, variables), number);
+        prop::collection::vec(term, 1..terms).prop_map(Poly::from_terms)
+    }
+
+    /// Returns the quotient by values, whatever it costs.
+    fn by_value(f: &Poly, g: &Poly, margin: usize) -> Result<Option<Poly>, Undecided> {
+        let packing = f.joint_packing(g);
+        let (own, other) = (f.packed_as(packing), g.packed_as(packing));
+        let mut degrees = f.degrees();
+        degrees.resize(packing.variables(), 0);
+        let (a, b) = (to_large(&f.coefficients).unwrap(), to_large(&g.coefficients).unwrap());
+        let (a, b) = (Numbers::Large(&a), Numbers::Large(&b));
+        let width = a.bits().max(b.bits()) + margin;
+        let substitution = Kronecker::with_width(packing, &degrees, width, &own, &other).unwrap();
+        let found = substitution.quotient((&own, &a), (&other, &b), &g.degrees())?;
+        Ok(found.map(|(monomials, coefficients)| Polynomial { packing, monomials, coefficients }))
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(100))]
+        #[test]
+        fn quotients_by_values_are_quotients(
+            (f, g, r) in (1..4_usize).prop_flat_map(|n| (polynomial(n, 20), polynomial(n, 20), polynomial(n, 3))),
+            margin in 2..20_usize,
+        ) {
+            prop_assume!(!f.is_zero() && !g.is_zero());
+            let product = f.mul(&g);
+            if let Ok(found) = by_value(&product, &g, margin) {
+                prop_assert_eq!(found.as_ref(), Some(&f));
+            }
+            prop_assert_eq!(product.checked_div_exact(&g), Some(f));
+            // What is no multiple is never taken for one. Slots are for divisors of no larger degrees.
+            let sum = product.add(&r);
+            if (0..3).all(|v| sum.degree(v) >= g.degree(v))
+                && let Ok(Some(found)) = by_value(&sum, &g, margin)
+            {
+                prop_assert_eq!(found.mul(&g), sum);
+            }
+        }
+    }
+
+    /// Their values divide each other at every power of two.
+    #[test]
+    fn values_that_mislead() {
+        let x = Poly::variable(0);
+        let number = |n: i64| Poly::constant(Int::from(n));
+        let h = (1..40).fold(Poly::one(), |h, n| h.mul(&x.scale(&Int::from(n)).add(&number(1 - 2 * n))));
+        let f = x.mul(&x.add(&number(2))).mul(&h);
+        let g = x.add(&number(2)).scale(&Int::from(2)).mul(&h);
+        assert!(f.len() * g.len() >= FEW_PAIRS);
+        assert_eq!(f.checked_div_exact(&g), None);
+        assert!(by_value(&f, &g, MARGIN).is_err());
+        assert_eq!(f.scale(&Int::from(2)).checked_div_exact(&g), Some(x));
     }
 }

@@ -10,8 +10,11 @@
 #![expect(clippy::cast_possible_truncation, reason = "keys are places in lists, and sums fit a word")]
 
 use super::Polynomial;
+use super::blocks::Accumulator;
 use super::kronecker::balanced;
+use super::limbs;
 use super::product::bound;
+use super::transform::Transform;
 use crate::int::Int;
 use crate::monomial::Packing;
 use crate::ring::Ring;
@@ -22,12 +25,15 @@ use std::cmp::Reverse;
 /// A key and a coefficient.
 type Term<C = i64> = (u64, C);
 
+/// The monomials of a factor, and its coefficients.
+type Factor<'a> = (&'a [u64], &'a [&'a Int]);
+
 /// The most products of terms that are looked at here at all, those that are sorted, and those that are looked up in a table.
 pub(super) const MOST: usize = 1 << 17;
 const SORTED: usize = 64;
 const TABLED: usize = 4096;
-/// The most products of coefficients of several words, times the bits of those: others add digits, or whole numbers.
-const WIDE: usize = 1 << 21;
+/// The most products of coefficients whose sums fit two words: others add digits, or whole numbers.
+const WIDE: usize = 1 << 14;
 /// The most products of a term and a stretch of [`LONG`] places in a product: beyond it other ways are faster.
 const STRETCHES: usize = 1 << 13;
 /// The places of a row that are kept in registers at a time; and the fewest terms of a row for which that pays, on the average.
@@ -370,47 +376,50 @@ pub(super) fn product(
     Some((terms.iter().map(|term| term.0).collect(), coefficients(terms)))
 }
 
-/// Returns the product as [`product`] does, for coefficients of any ring of integers, all sums being below `2^bits` in absolute value.
-pub(super) fn wide_product<R: Ring>(
+/// Returns the product as [`product`] does, for integers of any size, all sums being below `2^bits` in absolute value.
+pub(super) fn wide_product(
     packing: Packing,
     degrees: &dyn Fn() -> Vec<u32>,
-    (left, a): (&[u64], &[R]),
-    (right, b): (&[u64], &[R]),
+    left: Factor<'_>,
+    right: Factor<'_>,
     bits: u32,
-) -> Option<(Vec<u64>, Vec<R>)> {
+) -> Option<(Vec<u64>, Vec<Int>)> {
     // One bit is for the sign.
-    match bits {
-        ..128 => wrapped_product::<i128, R>(packing, degrees, (left, a), (right, b)),
-        128..192 => wrapped_product::<Wide<3>, R>(packing, degrees, (left, a), (right, b)),
-        192..256 => wrapped_product::<Wide<4>, R>(packing, degrees, (left, a), (right, b)),
-        256..320 => wrapped_product::<Wide<5>, R>(packing, degrees, (left, a), (right, b)),
-        _ => long_product(packing, degrees, (left, a), (right, b), bits),
-    }
+    let product = match bits {
+        ..128 => return wrapped_product(packing, degrees, left, right),
+        128..256 => limbs_product::<2, 4>(packing, degrees, left, right),
+        256..384 => limbs_product::<3, 6>(packing, degrees, left, right),
+        384..512 => limbs_product::<4, 8>(packing, degrees, left, right),
+        512..768 => limbs_product::<6, 12>(packing, degrees, left, right),
+        _ => None,
+    };
+    product.or_else(|| long_product(packing, degrees, left, right, bits))
 }
 
 /// Returns the product by adding up long integers at the places of their monomials; `None` if these are too many, or if one product of longer
 /// integers takes less.
-fn long_product<R: Ring>(
+fn long_product(
     packing: Packing,
     degrees: &dyn Fn() -> Vec<u32>,
-    (left, a): (&[u64], &[R]),
-    (right, b): (&[u64], &[R]),
+    (left, a): Factor<'_>,
+    (right, b): Factor<'_>,
     bits: u32,
-) -> Option<(Vec<u64>, Vec<R>)> {
+) -> Option<(Vec<u64>, Vec<Int>)> {
     // The nanoseconds for a product of two numbers, and for each product of two of their limbs: measured on a processor of 3 GHz.
     const NUMBER: f64 = 20.0;
-    const LIMBS: f64 = 0.4;
+    const LIMBS: f64 = 0.8;
     let products = left.len() * right.len();
     let places = Places::new(packing, &degrees(), products)?;
     let limbs = f64::from(bits) / f64::from(u64::BITS);
     // The limbs of a number are half of those of a product; those of a factor are half of those of the whole product.
     let cost = products as f64 * (NUMBER + LIMBS * (limbs / 2.0).powi(2));
-    if balanced(places.count as f64 / 2.0 * limbs) < cost {
+    let transform = Transform::new(bits as usize + 2, places.count).map_or(f64::INFINITY, |transform| transform.cost());
+    if transform.min(balanced(places.count as f64 / 2.0 * limbs)) < cost {
         return None;
     }
     let place = |monomial: &u64| places.key(packing, *monomial) as usize;
     let right: Vec<usize> = right.iter().map(place).collect();
-    let mut sums = vec![R::zero(); places.count];
+    let mut sums = vec![Int::zero(); places.count];
     for (monomial, c) in left.iter().zip(a) {
         let sums = &mut sums[place(monomial)..];
         for (other, d) in right.iter().zip(b) {
@@ -418,28 +427,29 @@ fn long_product<R: Ring>(
         }
     }
     let found = sums.into_iter().enumerate().rev().filter(|(_, c)| !c.is_zero());
-    let terms: Vec<Term<R>> = found.map(|(key, c)| (key as u64, c)).collect();
+    let terms: Vec<Term<Int>> = found.map(|(key, c)| (key as u64, c)).collect();
     Some((places.monomials(&terms), terms.into_iter().map(|term| term.1).collect()))
 }
 
-fn wrapped_product<C: Wrapping, R: Ring>(
+/// Returns the product with sums of two words.
+fn wrapped_product(
     packing: Packing,
     degrees: &dyn Fn() -> Vec<u32>,
-    (left, a): (&[u64], &[R]),
-    (right, b): (&[u64], &[R]),
-) -> Option<(Vec<u64>, Vec<R>)> {
+    (left, a): Factor<'_>,
+    (right, b): Factor<'_>,
+) -> Option<(Vec<u64>, Vec<Int>)> {
     let products = left.len() * right.len();
-    if products > WIDE / C::BITS as usize {
+    if products > WIDE {
         return None;
     }
     let places = Places::new(packing, &degrees(), products);
     let key = |monomial: &u64| places.as_ref().map_or(*monomial, |places| places.key(packing, *monomial));
-    let terms = |monomials: &[u64], coefficients: &[R]| -> Option<Vec<Term<C>>> {
-        monomials.iter().zip(coefficients).map(|(monomial, c)| Some((key(monomial), wrapped(c)?))).collect()
+    let terms = |monomials: &[u64], integers: &[&Int]| -> Option<Vec<Term<i128>>> {
+        monomials.iter().zip(integers).map(|(monomial, c)| Some((key(monomial), c.to_wide()?))).collect()
     };
     let (left, right) = (terms(left, a)?, terms(right, b)?);
     let mut sums = match &places {
-        Some(places) => Sums::Places(vec![C::ZERO; places.count]),
+        Some(places) => Sums::Places(vec![0; places.count]),
         None if products <= TABLED => Sums::of(products),
         None => return None,
     };
@@ -448,7 +458,70 @@ fn wrapped_product<C: Wrapping, R: Ring>(
     }
     let terms = sums.take();
     let monomials = places.map_or_else(|| terms.iter().map(|term| term.0).collect(), |places| places.monomials(&terms));
-    Some((monomials, terms.into_iter().map(|term| term.1.to_ring()).collect()))
+    Some((monomials, terms.into_iter().map(|term| Int::from(term.1)).collect()))
+}
+
+/// Returns the product with sums of S limbs, twice as many as the F limbs of a factor; `None` if one has more.
+fn limbs_product<const F: usize, const S: usize>(
+    packing: Packing,
+    degrees: &dyn Fn() -> Vec<u32>,
+    (left, a): Factor<'_>,
+    (right, b): Factor<'_>,
+) -> Option<(Vec<u64>, Vec<Int>)> {
+    // The nanoseconds for a product and its place, and for each product of two limbs: measured on a processor of 3 GHz.
+    const PRODUCT: f64 = 5.0;
+    const PAIR: f64 = 0.9;
+    let products = left.len() * right.len();
+    let factors = |integers: &[&Int]| integers.iter().map(|c| limbs::Factor::<F>::new(c)).collect::<Option<Vec<_>>>();
+    let (a, b) = (factors(a)?, factors(b)?);
+    let places = Places::new(packing, &degrees(), products);
+    if let Some(places) = &places
+        && balanced((places.count * F) as f64) < products as f64 * (PRODUCT + PAIR * (F * F) as f64)
+    {
+        return None;
+    }
+    let Some(places) = places else {
+        return (products <= TABLED).then(|| scattered_product::<F, S>((left, &a), (right, &b)));
+    };
+    let mut sums = vec![limbs::Sum::<S>::zero(); places.count];
+    let right: Vec<u64> = right.iter().map(|monomial| places.key(packing, *monomial)).collect();
+    for (monomial, c) in left.iter().zip(&a) {
+        let own = places.key(packing, *monomial);
+        for (other, d) in right.iter().zip(&b) {
+            sums[(own + other) as usize].add(c, d);
+        }
+    }
+    let found = sums.iter().enumerate().rev().filter(|(_, sum)| !sum.is_zero());
+    let terms: Vec<Term<Int>> = found.map(|(place, sum)| (place as u64, sum.to_int())).collect();
+    Some((places.monomials(&terms), terms.into_iter().map(|term| term.1).collect()))
+}
+
+/// Returns the product of terms that hardly ever meet: all products of monomials are sorted, and sums made one after the other.
+fn scattered_product<const F: usize, const S: usize>(
+    (left, a): (&[u64], &[limbs::Factor<F>]),
+    (right, b): (&[u64], &[limbs::Factor<F>]),
+) -> (Vec<u64>, Vec<Int>) {
+    // Monomial and places in one integer sort faster than a triple.
+    const PLACE: u32 = 32;
+    let mut pairs: Vec<u128> = Vec::with_capacity(left.len() * right.len());
+    for (i, own) in left.iter().enumerate() {
+        for (j, other) in right.iter().enumerate() {
+            pairs.push(u128::from(own + other) << 64 | u128::from((i as u64) << PLACE | j as u64));
+        }
+    }
+    pairs.sort_unstable();
+    let (mut monomials, mut integers) = (Vec::with_capacity(pairs.len()), Vec::with_capacity(pairs.len()));
+    for same in pairs.chunk_by(|one, other| one >> 64 == other >> 64).rev() {
+        let mut sum = limbs::Sum::<S>::zero();
+        for pair in same {
+            sum.add(&a[(*pair as u64 >> PLACE) as usize], &b[*pair as u32 as usize]);
+        }
+        if !sum.is_zero() {
+            monomials.push((same[0] >> 64) as u64);
+            integers.push(sum.to_int());
+        }
+    }
+    (monomials, integers)
 }
 
 /// Returns the determinant of a square matrix by its minors; `None` if it has too many rows or terms for this, or a word is too short.
@@ -517,15 +590,19 @@ pub(super) fn determinant(rows: &[Vec<Polynomial<Int>>]) -> Option<Polynomial<In
 fn minors_by_sums<C: Wrapping>(rows: &[Vec<Polynomial<Int>>], packing: Packing) -> Option<Polynomial<Int>> {
     let size = rows.len();
     let (mut few, mut minors) = (Sums::<C>::of(0), vec![Vec::new(); 1 << size]);
-    minors[0].push((0, C::from_wide(1)));
     for set in sets(size) {
+        if set.is_power_of_two() {
+            let entry = &rows[size - 1][set.trailing_zeros() as usize];
+            minors[set] = entry.monomials.iter().copied().zip(entry.coefficients.iter().map(element)).collect();
+            continue;
+        }
         let mut products = 0;
         expand(rows, set, |entry, _, rest| products += entry.len() * minors[rest].len());
         let mut many = (products > SORTED).then(|| Sums::of(products));
         let sums = many.as_mut().unwrap_or(&mut few);
         expand(rows, set, |entry, sign, rest| {
             for (key, c) in entry.monomials.iter().zip(&entry.coefficients) {
-                let c = wrapped(c).unwrap_or(C::ZERO);
+                let c = element::<C>(c);
                 sums.add((*key, if sign < 0 { c.negative() } else { c }), &minors[rest]);
             }
         });
@@ -533,6 +610,12 @@ fn minors_by_sums<C: Wrapping>(rows: &[Vec<Polynomial<Int>>], packing: Packing) 
     }
     let terms = minors.pop()?;
     Some(polynomial(packing, terms.iter().map(|term| term.0).collect(), terms))
+}
+
+/// Returns an integer, which is known to be of few words.
+#[inline(always)]
+fn element<C: Wrapping>(c: &Int) -> C {
+    wrapped(c).unwrap_or(C::ZERO)
 }
 
 fn polynomial<C: Wrapping>(packing: Packing, monomials: Vec<u64>, terms: Vec<Term<C>>) -> Polynomial<Int> {
@@ -626,7 +709,7 @@ mod tests {
             let expected = distributed(&f, &g);
             prop_assert_eq!(&f.mul(&g), &expected);
             // With coefficients of several words.
-            for shift in [0, 40, 100] {
+            for shift in [0, 40, 100, 200, 280, 400] {
                 let factor = Int::from(Integer::from(1) << shift);
                 let (f, g) = (f.scale(&factor), g.scale(&factor));
                 let packing = Packing::new(f.variables().max(g.variables()), 2 * f.largest_exponent().max(g.largest_exponent()));
@@ -634,7 +717,8 @@ mod tests {
                 let (left, right) = (f.packed_as(packing), g.packed_as(packing));
                 let degrees = || (0..packing.variables()).map(|v| f.degree(v) + g.degree(v)).collect();
                 for bits in [2 * shift + 64 + 12, 2 * shift + 128] {
-                    let product = wide_product(packing, &degrees, (&left, f.coefficients()), (&right, g.coefficients()), bits);
+                    let (a, b): (Vec<&Int>, Vec<&Int>) = (f.coefficients().iter().collect(), g.coefficients().iter().collect());
+                    let product = wide_product(packing, &degrees, (&left, &a), (&right, &b), bits);
                     if let Some((monomials, coefficients)) = product && (bits > 2 * shift + 100 || bound_of(&f, &g) < bits) {
                         let product = Poly { packing, monomials, coefficients };
                         prop_assert_eq!(product, expected.scale(&factor).scale(&factor));

@@ -15,6 +15,7 @@ use super::grading::Grading;
 use super::recurrence::{Random, Recurrence, SmoothField, coefficients, invert_all, roots};
 use crate::int::Int;
 use crate::integer_polynomial::Lifted;
+use crate::minors::cells;
 use crate::modp::{Modulus, primes};
 use crate::residue_polynomial::{Residues, common_divisor, make_monic, trim};
 use crate::ring::{Domain, Ring};
@@ -25,6 +26,8 @@ use rug::Integer;
 const PREPARATION: f64 = 2e4;
 /// What one root of a recurrence costs, in products of residues for each term of the recurrence.
 const ROOT: f64 = 150.0;
+/// The part of the possible terms from which on a polynomial is called dense.
+const DENSE: f64 = 0.25;
 /// Bits of a prime that must be left over before its residues are taken for the coefficients themselves.
 const SPARE_BITS: u32 = 8;
 /// Bits per unit of degree by which factors may have longer coefficients than products: `log2 e` (Gelfond's bound).
@@ -61,7 +64,17 @@ impl Polynomial<Int> {
     /// It divides both, which division proves. With the highest grade of one polynomial in a single term, a further factor
     /// of the common divisor would raise the degree in t of the image of all divisors.
     pub(super) fn sparse_gcd(&self, other: &Self, support: &[usize]) -> Option<Self> {
+        // In two variables the grid is small, and dense polynomials mostly have dense divisors.
+        if support.len() == 2 && [self, other].iter().all(|f| f.fills(support, DENSE)) {
+            return None;
+        }
         self.sparse_gcd_within(other, support, grid_cost)
+    }
+
+    /// Returns whether at least this part of the monomials that the degrees allow occurs.
+    fn fills(&self, support: &[usize], part: f64) -> bool {
+        let degrees = support.iter().map(|&variable| f64::from(self.degree(variable)));
+        self.len() as f64 >= part * cells(degrees, self.total_degree().unwrap_or(0) as f64)
     }
 
     /// As `sparse_gcd`, where another way has this cost.

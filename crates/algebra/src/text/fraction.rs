@@ -1,7 +1,7 @@
 //! Polynomials with rational coefficients, kept as integers over one common denominator.
 
 use crate::int::Int;
-use crate::polynomial::Polynomial;
+use crate::polynomial::{Polynomial, common_factor};
 use crate::ring::{Domain, Ring};
 use rug::{Integer, Rational};
 
@@ -15,22 +15,33 @@ pub struct Fraction {
 }
 
 impl Fraction {
-    /// In lowest terms: no number but 1 divides the denominator and all coefficients of the numerator.
+    /// Returns the same polynomial in lowest terms: no number but 1 divides the denominator and all coefficients of the numerator.
     #[must_use]
     pub fn reduced(self) -> Self {
-        let one = Int::one();
-        if self.denominator == one {
+        let common = common_factor(&self.denominator, self.numerator.coefficients());
+        self.divided(&common)
+    }
+
+    /// Returns the product; it is in lowest terms.
+    ///
+    /// The content of a product is the product of the contents (Gauss), so that the coefficients of the factors, which are fewer and shorter, tell
+    /// what can be cancelled.
+    #[must_use]
+    pub fn times(&self, other: &Self) -> Self {
+        let numerator = self.numerator.mul(&other.numerator);
+        let denominator = self.denominator.mul(&other.denominator);
+        let [own, others] = [self, other].map(|f| common_factor(&denominator, f.numerator.coefficients()));
+        let common = own.mul(&others).gcd(&denominator);
+        Self { numerator, denominator }.divided(&common)
+    }
+
+    /// Divides both by a number that divides them.
+    fn divided(self, common: &Int) -> Self {
+        if *common == Int::one() {
             return self;
         }
-        let mut common = self.denominator.clone();
-        for c in self.numerator.coefficients() {
-            if common == one {
-                return self;
-            }
-            common = common.gcd(c);
-        }
-        let numerator = self.numerator.map(|c| Some(c.div_exact(&common)));
-        Self { numerator: numerator.unwrap_or_else(Polynomial::zero), denominator: self.denominator.div_exact(&common) }
+        let numerator = self.numerator.map(|c| Some(c.div_exact(common)));
+        Self { numerator: numerator.unwrap_or_else(Polynomial::zero), denominator: self.denominator.div_exact(common) }
     }
 
     /// Returns the polynomial itself.
@@ -51,5 +62,33 @@ impl Fraction {
         let image = |c: &Rational| Some(Int::from(Integer::from(denominator.div_exact_ref(c.denom())) * c.numer()));
         let numerator = polynomial.map(image).unwrap_or_else(Polynomial::zero);
         Self { numerator, denominator: Int::from(denominator) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn fraction() -> impl Strategy<Value = Fraction> {
+        let term = (prop::collection::vec(0..5_u32, 2), -60..60_i64);
+        (prop::collection::vec(term, 1..14), 1..5_i64, 1..1000_i64, 0..90_u32).prop_map(|(terms, factor, d, bits)| {
+            let factor = Int::from(factor);
+            let terms = terms.into_iter().map(|(exponents, c)| (exponents, Int::from(c).mul(&factor)));
+            Fraction { numerator: Polynomial::from_terms(terms), denominator: Int::from(Integer::from(d) << bits) }
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn products_and_fractions_in_lowest_terms_are_those_of_rational_numbers((f, g) in (fraction(), fraction())) {
+            prop_assume!(!f.numerator.is_zero() && !g.numerator.is_zero());
+            for (found, expected) in [
+                (f.times(&g), f.to_rational().mul(&g.to_rational())),
+                (f.clone().reduced(), f.to_rational()),
+            ] {
+                prop_assert_eq!(found, Fraction::from_rational(&expected));
+            }
+        }
     }
 }
