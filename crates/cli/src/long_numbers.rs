@@ -9,8 +9,9 @@ use gmp_mpfr_sys::gmp::set_memory_functions;
 use std::alloc::{Layout, alloc, dealloc, handle_alloc_error, realloc};
 use std::ffi::c_void;
 
-/// Alignment of all memory of C.
-const ALIGNMENT: usize = 16;
+/// Alignment of limbs and of pointers. Blocks of 40 bytes and the like are at hand in it, where 16 would make the allocator cut them out of larger
+/// ones.
+const ALIGNMENT: usize = 8;
 
 /// Makes GMP and MPFR take their memory from the allocator of the program. It has to be called before the first long number is made: what the
 /// C library gave cannot be returned to another allocator.
