@@ -196,11 +196,7 @@ impl<'j> Job<'j> {
                 check_degrees(&polynomials)?;
                 Answer::Polynomial(common_divisor(&polynomials[0], &polynomials[1]))
             }
-            (_, Input::Polynomials(polynomials)) => {
-                let (f, g) = (&polynomials[0], &polynomials[1]);
-                let (numerator, denominator) = (f.numerator.mul(&g.numerator), f.denominator.mul(&g.denominator));
-                Answer::Polynomial(Fraction { numerator, denominator }.reduced())
-            }
+            (_, Input::Polynomials(polynomials)) => Answer::Polynomial(polynomials[0].times(&polynomials[1])),
         })
     }
 }

@@ -7,6 +7,8 @@ use std::time::Instant;
 const SHORT: f64 = 0.02;
 const SHORT_SAMPLES: usize = 300;
 const LONG_SAMPLES: usize = 25;
+/// Operations shorter than this, in seconds, are repeated until they take about as long together: what the clocks take would be seen otherwise.
+const TOGETHER: f64 = 1e-4;
 
 /// Returns the seconds of an operation, repeated for the given time but at least once, and its last result.
 ///
@@ -16,11 +18,18 @@ pub fn measure<R, E>(budget: f64, mut operation: impl FnMut() -> Result<R, E>) -
     let begin = Instant::now();
     let (mut shortest, mut cpu) = (f64::INFINITY, Vec::new());
     loop {
+        // As many as took that time when they were fastest.
+        let count = std::iter::successors(Some(1_u32), |count| count.checked_mul(2))
+            .find(|count| f64::from(*count) * shortest >= TOGETHER)
+            .unwrap_or(1);
         let (start, wall) = (cpu_seconds(), Instant::now());
+        for _ in 1..count {
+            operation()?;
+        }
         let result = operation()?;
-        let wall = wall.elapsed().as_secs_f64();
+        let wall = wall.elapsed().as_secs_f64() / f64::from(count);
         // Without a CPU clock the wall clock is used.
-        let spent = start.zip(cpu_seconds()).map_or(wall, |(start, end)| end - start);
+        let spent = start.zip(cpu_seconds()).map_or(wall, |(start, end)| (end - start) / f64::from(count));
         shortest = shortest.min(if wall < SHORT { wall.max(spent) } else { spent });
         cpu.push(spent);
         let limit = if shortest < SHORT { SHORT_SAMPLES } else { LONG_SAMPLES };
