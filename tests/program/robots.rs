@@ -489,6 +489,24 @@ fn a_short_self_motion_of_seven_joints_is_found() {
     }
 }
 
+/// The second and the sixth joint at 0: the arm is singular, and two complex curves meet in this one real configuration.
+#[test]
+fn a_configuration_at_which_an_arm_of_seven_joints_is_locked_is_listed() {
+    for planted in [[0.0, 0.0, 0.0, 50.9, -30.0, 0.0, 0.0], [15.0, 0.0, 0.0, 45.0, 60.0, 0.0, 0.0]] {
+        let q = planted.map(|value| format!("{value} deg")).join(", ");
+        let result = &lines(&run(&["solve", "gen3", "--joints", &q, "--jsonl"]))[0];
+        let modes = result["modes"].as_array().unwrap();
+        let off = |mode: &Value| apart(&values(&mode["q"]), &planted.map(f64::to_radians));
+        // A double configuration is known to the root of rounding.
+        assert!(
+            modes.iter().any(|mode| off(mode) < 1e-6 && mode["multiplicity"] == json!(2)),
+            "{planted:?}: {modes:?}"
+        );
+        assert!(modes.iter().all(|mode| mode["certified"] == json!(false)));
+        assert!(!result["families"].as_array().unwrap().is_empty());
+    }
+}
+
 #[test]
 fn a_path_is_followed_branch_by_branch() {
     let rows: Vec<Vec<f64>> = (0..8).map(|k| vec![0.2 + 0.02 * f64::from(k), 0.3, 0.5, -0.4, 0.1]).collect();
