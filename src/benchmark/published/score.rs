@@ -29,6 +29,8 @@ pub struct Tally {
     pub problems: usize,
     /// Number of problems with an answer.
     pub answered: usize,
+    /// Number of problems of which every true solution is found, and nothing else.
+    pub complete: usize,
     /// Number of true solutions.
     pub truths: usize,
     /// True solutions that are found by an answer.
@@ -56,6 +58,10 @@ pub struct Score {
     pub classes: BTreeMap<String, Tally>,
     /// True solutions by the power of ten of their condition number; the last entry holds multiple solutions.
     pub decades: BTreeMap<i32, Tally>,
+    /// By the mechanism of the problem: its identifier without seed and number.
+    pub mechanisms: BTreeMap<String, Tally>,
+    /// By class, the number of problems with so many true solutions.
+    pub numbers: BTreeMap<String, BTreeMap<usize, usize>>,
     /// The problems with a true solution that was lost.
     pub lost_in: Vec<String>,
 }
@@ -82,6 +88,10 @@ pub fn score(problems: &[Problem], answers: &[Option<Answer>]) -> Score {
         if own.lost > 0 {
             score.lost_in.push(problem.id.clone());
         }
+        own.complete = usize::from(own.lost + own.spurious + own.duplicates == 0);
+        *score.numbers.entry(problem.class.clone()).or_default().entry(problem.truth.len()).or_default() += 1;
+        let mechanism = problem.id.rsplitn(3, '-').last().unwrap_or_default();
+        score.mechanisms.entry(mechanism.to_owned()).or_default().add(&own);
         score.classes.entry(problem.class.clone()).or_default().add(&own);
         score.all.add(&own);
     }
@@ -122,6 +132,7 @@ impl Tally {
     fn add(&mut self, other: &Self) {
         self.problems += other.problems;
         self.answered += other.answered;
+        self.complete += other.complete;
         self.truths += other.truths;
         self.found += other.found;
         self.lost += other.lost;

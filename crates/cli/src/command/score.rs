@@ -10,7 +10,7 @@ use looproot::internal::benchmark::published::{
 use looproot::internal::benchmark::sample::Set;
 use looproot::internal::catalogue::robot_names;
 use looproot::internal::error::Error;
-use looproot::internal::report::score::{document, figures, latex, text};
+use looproot::internal::report::score::{bibliography, document, figures, latex, tables, text};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::fs;
@@ -106,6 +106,10 @@ pub fn run(options: &ScoreOptions) -> Result<Exit, Fault> {
     }
     if let Some(folder) = &options.paper {
         write(&folder.join("table.tex"), &latex(&answers.solver, &answers.hash, &score))?;
+        write(&folder.join("looproot.bib"), &bibliography(&answers.hash))?;
+        for (name, table) in tables(&score) {
+            write(&folder.join(name), &table)?;
+        }
     }
     if options.json {
         print(&format!("{}\n", document(&answers.solver, &answers.hash, &score)))?;
