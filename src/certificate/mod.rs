@@ -8,6 +8,7 @@ mod all_roots;
 mod bound;
 mod chain;
 mod check;
+mod curve;
 mod data;
 mod distance;
 mod doubled;

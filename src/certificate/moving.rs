@@ -2,8 +2,9 @@
 
 use super::algebraic::{Far, Points};
 use super::bound::{choices, of_chains};
-use super::chain::{ChainClosure, six};
+use super::chain::ChainClosure;
 use super::check::closed;
+use super::curve::follows;
 use super::data::{data_of_loop, entry_of};
 use super::eliminant::{Choice, is_long, solutions_by_eliminant};
 use super::fault::{Fault, refused, shortened, unreadable};
@@ -14,9 +15,7 @@ use super::record::{Claim, count, fields};
 use super::refine::{Near, balls};
 use crate::algebra::conjugates::fewest_conjugates;
 use crate::algebra::number::{Angle, HalfTangent};
-use crate::algebra::number_field::Algebraic;
 use crate::algebra::ring::{Field, Ring, exact_cos_sin};
-use crate::algebra::series::Series;
 use crate::catalogue::Chains;
 use crate::catalogue::entry::{Design, Entry};
 use crate::kinematics::joint::{JointVariable, Variable};
@@ -129,96 +128,7 @@ pub(super) fn follows_a_curve(closure: &ChainClosure, item: &Value) -> Result<()
     }
     let Some(links) = points.standing(links) else { return refused("proof: curve: the loop is not closed there") };
     // An isolated configuration and its conjugates have the multiplicity 16 together at most.
-    match MOST / fewest_conjugates(&points.polynomial) {
-        0 | 1 => follows::<2>(variables, &links),
-        2 => follows::<3>(variables, &links),
-        3 | 4 => follows::<5>(variables, &links),
-        5..=8 => follows::<9>(variables, &links),
-        _ => follows::<{ MOST + 1 }>(variables, &links),
-    }
-}
-
-/// Checks that the loop stays closed to the order N - 1 along its only first-order motion.
-fn follows<const N: usize>(variables: &[Variable], links: &[Motion<Algebraic>]) -> Result<(), Fault> {
-    let size = variables.len();
-    let mut small = Series::<Algebraic, N>::zero();
-    small.coefficients[1] = Algebraic::one();
-    let only = |free: usize| -> Vec<Series<Algebraic, N>> {
-        (0..size).map(|k| if k == free { small.clone() } else { Series::zero() }).collect()
-    };
-    let broken = || Fault::Unreadable("proof: curve: found numbers that are not known well enough".to_owned());
-    let screws: Vec<Vec<Algebraic>> = (0..size)
-        .map(|k| Some(equations(variables, links, &only(k))?.map(|f| f.coefficients[1].clone()).to_vec()))
-        .collect::<Option<_>>()
-        .ok_or_else(broken)?;
-    // The derivative of the equations, and beside it the combination that every row is.
-    let rows = (0..6).map(|i| {
-        let unit = (0..6).map(|k| Algebraic::from_integer(i32::from(k == i)));
-        screws.iter().map(|screw| screw[i].clone()).chain(unit).collect()
-    });
-    let (pivots, rows) = reduced(rows.collect(), size)?;
-    let rank = pivots.iter().flatten().count();
-    if rank + 1 != size {
-        return refused(format!("proof: curve: the joint screws have the rank {rank}, expected {}", size - 1));
-    }
-    let free = (0..size).find(|k| !pivots.contains(&Some(*k))).unwrap_or(0);
-    let mut along = only(free);
-    for order in 1..N {
-        let values = equations(variables, links, &along).ok_or_else(broken)?;
-        for (row, pivot) in rows.iter().zip(&pivots) {
-            let terms = row[size..].iter().zip(&values).map(|(x, f)| x.mul(&f.coefficients[order]));
-            let value = terms.fold(Algebraic::zero(), |sum, term| sum.add(&term));
-            match pivot {
-                Some(k) => along[*k].coefficients[order] = value.neg(),
-                None if value.is_zero() => {}
-                None => return refused("proof: curve: the loop opens along the motion"),
-            }
-        }
-    }
-    Ok(())
-}
-/// Returns the six series that vanish if the loop is closed.
-fn equations<const N: usize>(
-    variables: &[Variable],
-    links: &[Motion<Algebraic>],
-    at: &[Series<Algebraic, N>],
-) -> Option<[Series<Algebraic, N>; 6]> {
-    let mut product = Motion::<Series<Algebraic, N>>::identity();
-    for ((variable, link), x) in variables.iter().zip(links).zip(at) {
-        let moved = match variable {
-            Variable::Rotation => {
-                let (cos, sin) = x.cos_sin_beyond(Algebraic::one(), Algebraic::zero())?;
-                Motion::rotation_z(cos, sin)
-            }
-            Variable::Translation => Motion::translation_z(x.clone()),
-        };
-        product = product.then_after(&moved).then_after(&link.map(|x| Some(Series::constant(x.clone())))?);
-    }
-    Some(six(&product.rotation, &product.translation))
-}
-
-/// The pivot of every row, and the rows after Gauss's algorithm.
-type Reduced = (Vec<Option<usize>>, Vec<Vec<Algebraic>>);
-
-/// Reduces rows by pivots in the first columns, which are 0 at none of the conjugate points.
-fn reduced(mut rows: Vec<Vec<Algebraic>>, columns: usize) -> Result<Reduced, Fault> {
-    let mut pivots = vec![None; rows.len()];
-    for column in 0..columns {
-        let Some(at) = (0..rows.len()).find(|i| pivots[*i].is_none() && !rows[*i][column].is_zero()) else { continue };
-        let Some(inverse) = rows[at][column].inverse() else {
-            return refused("proof: a number is 0 at some of the conjugate points, and not at others");
-        };
-        pivots[at] = Some(column);
-        let pivot: Vec<Algebraic> = rows[at].iter().map(|x| x.mul(&inverse)).collect();
-        for row in &mut rows {
-            let factor = row[column].clone();
-            for (x, p) in row.iter_mut().zip(&pivot) {
-                *x = x.sub(&factor.mul(p));
-            }
-        }
-        rows[at] = pivot;
-    }
-    Ok((pivots, rows))
+    follows((MOST / fewest_conjugates(&points.polynomial)).max(1), variables, &links)
 }
 
 /// Checks theorem 7: with one unknown of seven held, a real solution is simple.
