@@ -6,7 +6,7 @@ from flint import fmpq, fmpq_poly
 
 from closures import TURN
 from motions import IDENTITY
-from quantities import Refused, Unreadable, fields, is_exact, items, number
+from quantities import Refused, decimal, fields, is_exact, items
 
 MOST_CONJUGATES = 16  # solutions of six unknowns
 
@@ -79,7 +79,6 @@ class Points:
 
 
 def rational(text):
-    value = number(text)
-    if not is_exact([value]):
-        raise Unreadable(f"found {str(text)[:40]!r}, expected a rational number as text")
-    return value
+    """A decimal, or a quotient of two."""
+    above, is_quotient, below = text.partition("/")
+    return decimal(above) / decimal(below) if is_quotient else decimal(above)

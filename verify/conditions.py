@@ -123,7 +123,7 @@ def on_curve(slopes, twists, conditions, motion):
 def family(table, shape):
     """The polynomials of its conditions, and those of its motion."""
     kind, *lists = fields(table, ("class", "conditions", "motion"))
-    require(kind == shape[0], f"found the class {str(kind)[:40]}")
+    require(kind == shape[0], f"found the class {str(kind)[:40]!r}")
     return [[polynomial(text) for text in items(texts, count)] for texts, count in zip(lists, shape[1:])]
 
 

@@ -6,8 +6,9 @@ import re
 from flint import arb, ctx, fmpq
 
 ctx.prec = 384  # bits: more than the 250 of a pose by a quaternion of four integers of 60 bits
-DECIMAL = re.compile(r"([+-]?\d{1,900})(?:\.(\d{1,900}))?(?:[eE]([+-]?\d{1,3}))?", re.ASCII)
-LONGEST = 2000  # characters of an expression
+DECIMAL = re.compile(r"([+-]?\d{1,900})(?:\.(\d{1,900}))?(?:[eE]([+-]\d{1,3}|\d{1,4}))?", re.ASCII)
+LARGEST, LARGEST_OF_DATA = 400, 999  # digits before and behind the point, and exponent
+EXPRESSION = re.compile(r"[-+*/(),. \w]{1,2000}", re.ASCII)  # on one line, without remarks: the places of its numbers are those in it
 MOST_BITS = 8000  # of a rational number: those of a decimal of 900 digits behind the point and the largest exponent
 SIGNS = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
          ast.UAdd: operator.pos, ast.USub: operator.neg}
@@ -32,17 +33,17 @@ def expect(is_so, found, expected):
         raise Unreadable(f"found {str(found)[:40]!r}, expected {expected}")
 
 
-def decimal(text):
+def decimal(text, most=LARGEST):
     """The rational number that a decimal is."""
     match = DECIMAL.fullmatch(text) if isinstance(text, str) else None
-    expect(match, text, "a decimal number as text")
+    expect(match and max(len(match[1].lstrip("+-")), len(match[2] or ""), abs(int(match[3] or 0))) <= most, text, "a decimal number as text")
     whole, tail, power = match.groups(default="")
     return fmpq(int(whole + tail)) * fmpq(10) ** (int(power or 0) - len(tail))
 
 
 def number(text):
     """The value of an expression, exact where it is made of rational numbers."""
-    expect(isinstance(text, str) and len(text) <= LONGEST and text.isascii(), text, "a number as text")
+    expect(isinstance(text, str) and EXPRESSION.fullmatch(text), text, "a number as text")
     value = value_of(ast.parse(text.strip(), mode="eval").body, text.strip())
     is_short = not isinstance(value, fmpq) or value.height_bits() <= MOST_BITS
     expect(is_short and arb(value).is_finite(), text, "a number as text")
@@ -52,7 +53,7 @@ def number(text):
 def value_of(node, text):
     match node:
         case ast.Constant():
-            return decimal(text[node.col_offset:node.end_col_offset])
+            return decimal(text[node.col_offset:node.end_col_offset], LARGEST_OF_DATA)
         case ast.Name("pi"):
             return arb.pi()
         case ast.BinOp(left, sign, right):

@@ -5,7 +5,7 @@ import re
 from flint import fmpq
 
 from exact import part_of_pi, rational
-from quantities import LONGEST, decimal, expect
+from quantities import EXPRESSION, LARGEST_OF_DATA, decimal, expect
 
 UNITS = {"deg": "pi/180", "rad": "1", "m": "1", "cm": "1/100", "mm": "1/1000"}
 PIECES = re.compile(r"([(),]|(?<![a-z])(?:deg|rad|mm|cm|m)\b)")
@@ -53,14 +53,14 @@ def by_half_tangent(text):
 
 def evaluated(text):
     """The value of an expression without units."""
-    expect(len(text) <= LONGEST and text.isascii(), text, "an expression")
+    expect(EXPRESSION.fullmatch(text), text, "an expression")
     return value_of(ast.parse(text, mode="eval").body, text)
 
 
 def value_of(node, text):
     match node:
         case ast.Constant():
-            return rational(decimal(text[node.col_offset:node.end_col_offset]))
+            return rational(decimal(text[node.col_offset:node.end_col_offset], LARGEST_OF_DATA))
         case ast.Name("pi"):
             return part_of_pi(fmpq(1))
         case ast.BinOp(left, sign, right):

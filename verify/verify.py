@@ -14,10 +14,11 @@ from closures import SLIDE, THREE_JOINTS, Platform, proved_modes
 from conditions import four_joints
 from curve import curve
 from distance import distance
-from documents import distinct, finite
+from documents import object_at
 from files import is_about
 from geometry import geometry
 from kernel import kernel
+from one_form import is_in_one_form
 from polynomial import derived
 from quantities import Refused, expect, fields, items, require, whole
 from real_zeros import real_zeros
@@ -36,6 +37,7 @@ def check(certificate, file):
     verb = claim["verb"]
     require(verb in VERBS and items(proof), "claim: only answers of solve, derive, mobility, sweep and conditions with a proof are covered")
     system = system_of(data) if verb != "conditions" else None  # those are about no mechanism
+    require(is_in_one_form(data), "data: the numbers are not written in the one form that docs/certificate.md gives them")
     require(file is None or is_about(system, file, verb), "file: the data of the certificate are those of no case of the file")
     found = {"verb": verb, "proof": "proved", **VERBS[verb](system, data, claim, modes, *proof)}
     plain = lambda value: json.dumps(value, sort_keys=True)  # where 1, 1.0 and true differ
@@ -101,10 +103,9 @@ def certificates(path):
     with open(path, encoding="utf-8") as file:
         text = file.read(LARGEST + 1)
     expect(len(text) <= LARGEST, "more", f"a file of at most {LARGEST} characters")
-    decoder = json.JSONDecoder(object_pairs_hook=distinct, parse_float=finite, parse_constant=finite)
-    space, at = re.compile(r"\s*"), 0
+    space, at = re.compile(r"[ \t\n\r]*"), 0
     while (at := space.match(text, at).end()) < len(text):
-        certificate, at = decoder.raw_decode(text, at)
+        certificate, at = object_at(text, at)
         yield certificate
 
 
