@@ -56,6 +56,23 @@ def changed(certificate):
             yield name, replaced(certificate, path, type(value)(own))
 
 
+def tables(value, path=()):
+    """All tables, with the keys that lead to them."""
+    if isinstance(value, dict):
+        yield path, value
+    for key, own in value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ():
+        yield from tables(own, (*path, key))
+
+
+def renamed(certificate):
+    """The certificate with one digit changed of every number that is a key, such as those of bodies and joints of linkages."""
+    for path, table in tables({key: own for key, own in certificate.items() if key != "info"}):
+        for key in filter(str.isdigit, table):
+            other = str((int(key[0]) + 3) % 10) + key[1:]
+            place = "keys of " + "/".join(str(k) for k in path if not str(k).isdigit())
+            yield place, replaced(certificate, path, {other if name == key else name: own for name, own in table.items()})
+
+
 def turned(certificate):
     """The certificate with one sign of a polynomial changed, for every sign of the families."""
     for path, value in leaves(certificate):
@@ -94,7 +111,7 @@ def table(paths):
         for certificate in verify.certificates(path):
             assert accepted_by_python(certificate) and accepted_by_rust([certificate]) == [True], path
             is_symbolic = certificate["claim"]["verb"] == "conditions"
-            places, others = zip(*changed(certificate), *(turned(certificate) if is_symbolic else ()))
+            places, others = zip(*changed(certificate), *renamed(certificate), *(turned(certificate) if is_symbolic else ()))
             answers = {"python": map(accepted_by_python, others), "rust": accepted_by_rust(others)}
             for checker, accepted in answers.items():
                 for place, one in zip(places, accepted):

@@ -16,7 +16,7 @@ VERIFY = os.environ.get("VERIFY", str(ROOT / "verify" / "verify.py"))
 ENTRIES = ["linkage/3rpr", "linkage/crank_slider", "linkage/eight_bar_03", "linkage/steering_optimum", "arm/manocha_canny_1994", "arm/puma560", "arm/ur5", "arm/mc16_1deg", "arm/general_02real", "chain/arm_3r3p", "chain/srrr",
            "chain/arm_ruru", "chain/ik_puma_type", "loop/rrsrr", "loop/cccr_1_angle", "loop/rrrrrrr_every_input",
            "platform/points_6_3", "platform/affine", "platform/hexapod", "platform/similar", "chain/crcr", "chain/arm_5rp_parallel_pair", "arm/chain_cc", "arm/chain_rrr_elbow", "chain/structure_5r",
-           "overconstrained/planar_4r", "overconstrained/dietmaier_a", "overconstrained/dietmaier_broken", "overconstrained/rrcrp_b"]
+           "overconstrained/planar_4r", "overconstrained/dietmaier_a", "overconstrained/dietmaier_broken", "overconstrained/rrcrp_b", "chain/arm_6r_two_wrists"]
 MOTIONS = ["overconstrained/bennett_a", "overconstrained/bennett_broken", "overconstrained/waldron_hybrid", "loop/rrrrrrr_every_input",
            "overconstrained/spherical_4r", "overconstrained/dietmaier_a", "overconstrained/bennett_dyads_a", "chain/scp", "chain/ccc", "loop/rscr"]
 IMMOBILE = ["overconstrained/bennett_broken", "chain/scp", "chain/ccc"]
@@ -496,14 +496,31 @@ def test_without_python_flint_one_line_says_how_to_get_it():
     assert answer.returncode == 1 and answer.stderr.count("\n") == 1 and "pip install python-flint" in answer.stderr, answer
 
 
-@pytest.mark.parametrize("entry", ["arm/puma560", "chain/crcr", "loop/rrsrr", "overconstrained/bennett_a",
-                                   "overconstrained/bennett_broken", "as_built", "arm/chain_cc", "overconstrained/dietmaier_a-motion",
-                                   "chain/structure_5r", "chain/ccc", "linkage/3rpr", "linkage/crank_slider", *NOTHING_COUNTED])
-def test_no_other_number_may_change(certificates, as_built, far, capsys, entry):
+CHANGED = ["arm/puma560", "chain/crcr", "loop/rrsrr", "overconstrained/bennett_a", "overconstrained/bennett_broken", "as_built", "arm/chain_cc",
+           "overconstrained/dietmaier_a-motion", "chain/structure_5r", "chain/ccc", "linkage/3rpr", "linkage/crank_slider", "loop/rrrrrrr_every_input-motion",
+           "platform/points_6_3", "chain/arm_6r_two_wrists", "derived", *NOTHING_COUNTED]
+
+
+@pytest.fixture(scope="session")
+def derived(certificates):
+    run(LOOPROOT, "derive", "equations/chain/arm_4r2p_wrist_ppr.toml", "-q", "--certificate", certificates / "derived")
+
+
+@pytest.mark.parametrize("entry", CHANGED)
+def test_no_other_number_may_change(certificates, as_built, far, derived, capsys, entry):
     """What is under `aid`, radii and centres may stay valid; all other changes are refused by both checkers."""
     sys.path.insert(0, str(pathlib.Path(__file__).parent))
     import mutations
     assert mutations.main([str(certificates / entry.replace("/", "-"))]) == 0, capsys.readouterr().out
+
+
+def test_numbers_of_every_kind_of_proof_are_changed(certificates, as_built, far, derived, of_four_joints, sweeps):
+    """By the test above and those of families and sweeps."""
+    sys.path.insert(0, os.path.dirname(VERIFY))
+    import verify
+    places = [*(certificates / entry.replace("/", "-") for entry in CHANGED), of_four_joints, *(place for place, *_ in sweeps.values())]
+    changed = {item["kind"] for place in places for certificate in lines(place) for item in certificate["proof"]}
+    assert changed == {*verify.BOUNDS, *verify.LISTS, *verify.MOTIONS, "points", "membership", "families", "discriminant"}
 
 
 FOUR_BAR = """
