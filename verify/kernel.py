@@ -10,6 +10,7 @@ from quantities import fields, require, whole
 PRIME = 2147483629  # 2^31 - 19, a prime that is 1 modulo 4
 ROOT = nmod(2, PRIME) ** ((PRIME - 1) // 4)  # of -1, as 2 is no square
 MOST_COLUMNS, MOST_LOOPS, MOST_EXPONENT = 3000, 3, 60
+SOME = 3  # times as many rows as columns: so many have the full rank in most cases
 
 
 def kernel(system, values, item):
@@ -22,7 +23,7 @@ def kernel(system, values, item):
     require(whole(stated) == len(values) > 0, f"proof: kernel: {whole(stated)} is stated, and there are {len(values)} modes")
     modes, chosen = proved_modes(system, values), [*islice(monomials(system, *bounds), MOST_COLUMNS + 1)]
     require(len(chosen) <= MOST_COLUMNS, f"proof: kernel: more than {MOST_COLUMNS} monomials")
-    most = len(chosen) - rank(shortest(system), chosen)
+    most = len(chosen) - rank(shortest(system), chosen, len(chosen) - len(modes))
     require(most == len(modes), f"proof: kernel: it has dimension {most}, and {len(modes)} modes are proved")
     require(are_independent(system, modes, chosen), "proof: kernel: the vectors of the modes may be dependent")
     return modes
@@ -60,8 +61,9 @@ def shortest(system):
     return both + [[(mirrored(columns[k]), modulo(a) - ROOT * modulo(b)) for k, (a, b) in own.items()] for own in found.values()]
 
 
-def rank(equations, chosen):
-    """The rank, modulo the prime, of all equations times monomials of which all monomials are among the chosen ones."""
+def rank(equations, chosen, enough):
+    """The rank, modulo the prime, of all equations times monomials of which all monomials are among the chosen ones. Where some of the
+    rows, taken at equal distances, have a rank that is enough, the others are left out."""
     places, rows = {own: at for at, own in enumerate(chosen)}, []
     for equation in equations:
         first, values = equation[0][0], [value for _, value in equation]
@@ -69,8 +71,13 @@ def rank(equations, chosen):
             by = [x - y for x, y in zip(own, first)]
             at = [places.get(tuple(map(int.__add__, by, term))) for term, _ in equation]
             if None not in at:
-                rows.append(zip(at, values))
-    table = nmod_mat(len(rows), len(chosen), PRIME)  # filled in place: lists of all its zeros would take more memory than it
+                rows.append([*zip(at, values)])
+    some = rows[::max(len(rows) // (SOME * len(chosen)), 1)]
+    return found if (found := rank_of(some, len(chosen))) >= enough else rank_of(rows, len(chosen))
+
+
+def rank_of(rows, count):
+    table = nmod_mat(len(rows), count, PRIME)  # filled in place: lists of all its zeros would take more memory than it
     for k, row in enumerate(rows):
         for place, value in row:
             table[k, place] = value
