@@ -14,6 +14,7 @@ from rounded import rotation_near, rotation_of
 from sweep import system_of
 from units import UNITS, angle_text, by_half_tangent, number_text
 
+KINDS = ("arm", "loop", "platform", "linkage")  # of which there are certificates, where their numbers are given
 NARROW = fmpq(1, 2**280)  # irrational numbers are known to 384 bits, rotation matrices to 300
 FAULTS = (ArithmeticError, AttributeError, LookupError, MemoryError, RecursionError, SyntaxError, TypeError, ValueError)
 
@@ -93,6 +94,8 @@ class File:
     def cases(self, verb):
         """The data of every case, each as a function, as some have none."""
         document, mechanism = self.document, self.document["mechanism"]
+        if mechanism["kind"] not in KINDS or "symbols" in document:
+            return []
         if verb == "sweep" or mechanism["kind"] == "linkage":
             return four_bars(self) if verb == "sweep" else Planar(self).cases()
         if mechanism["kind"] == "platform":

@@ -308,3 +308,11 @@ def test_exact_values_are_in_their_balls():
 
 def exact_cos_sin(half):
     return (1 - half * half) / (1 + half * half), 2 * half / (1 + half * half)
+
+
+@pytest.mark.parametrize("checker", CHECKERS)
+def test_a_mechanism_of_another_kind_is_another_mechanism(tmp_path, checker):
+    run(LOOPROOT, "solve", "equations/arm/puma560.toml", "-q", "--certificate", tmp_path / "certificate")
+    for entry in ("framework/bricard_borel", "displacement/between", "gearing/astroid", "conditions/bennett", "linkage/3rps", "platform/hexapod"):
+        answer = CHECKERS[checker](tmp_path / "certificate", "--file", f"equations/{entry}.toml")
+        assert answer.returncode == 2 and "file: " in answer.stdout and not answer.stderr, (entry, answer)
