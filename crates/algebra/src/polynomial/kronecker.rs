@@ -75,6 +75,9 @@ fn length(n: u64) -> usize {
     (u64::BITS - n.leading_zeros()) as usize
 }
 
+/// Monomials, decreasing, and their coefficients.
+type Terms<R> = (Vec<u64>, Vec<R>);
+
 /// The slots are too short to tell whether there is a quotient.
 pub(super) struct Undecided;
 
@@ -235,7 +238,7 @@ impl<'d> Kronecker<'d> {
         (left, a): (&[u64], &Numbers),
         (right, b): (&[u64], &Numbers),
         lower: &[u32],
-    ) -> Result<Option<(Vec<u64>, Vec<R>)>, Undecided> {
+    ) -> Result<Option<Terms<R>>, Undecided> {
         let slots = (self.slots.0 + 1).checked_sub(self.slots.1).ok_or(Undecided)?;
         let ((f, s), (g, t)) = (self.integer(left, a, self.slots.0), self.integer(right, b, self.slots.1));
         let (quotient, rest) = f.div_rem(g);

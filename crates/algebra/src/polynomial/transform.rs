@@ -164,7 +164,7 @@ impl Transform {
             let low = pair(&digits[..HALF]) + carry;
             let high = pair(&digits[HALF..]) + (low >> (LIMB / 2));
             carry = high >> (LIMB / 2);
-            limbs.push(u64::from(low as u32) | high.cast_unsigned() << (LIMB / 2));
+            limbs.push(u64::from(low.cast_unsigned() as u32) | high.cast_unsigned() << (LIMB / 2));
         }
         // `2^N` is -1.
         Integer::from_digits(&limbs, Order::Lsf) - carry
