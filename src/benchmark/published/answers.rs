@@ -91,7 +91,10 @@ impl Answer {
         let certified = certified.ok_or_else(|| wrong(line, "`certified`", "true or false, for each solution"))?;
         let seconds = match &value["seconds"] {
             Value::Null => None,
-            other => Some(other.as_f64().ok_or_else(|| wrong(line, "`seconds`", "a number"))?),
+            other => {
+                let seconds = other.as_f64().filter(|seconds| *seconds >= 0.0);
+                Some(seconds.ok_or_else(|| wrong(line, "`seconds`", "a number that is not negative"))?)
+            }
         };
         Ok(Self { solutions, certified, seconds })
     }

@@ -86,7 +86,7 @@ impl Transform {
         values
     }
 
-    /// The transform, by differences.
+    /// Applies the transform, by differences.
     #[inline(always)]
     fn forward(&self, values: &mut [i32]) {
         let digits = self.digits;
@@ -111,7 +111,7 @@ impl Transform {
         }
     }
 
-    /// The inverse transform, but for a division by the number of points.
+    /// Applies the inverse transform, but for a division by the number of points.
     #[inline(always)]
     fn backward(&self, values: &mut [i32]) {
         let digits = self.digits;

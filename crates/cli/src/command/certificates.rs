@@ -24,6 +24,11 @@ pub struct Certificates {
 
 impl Certificates {
     pub fn new(path: &Path) -> Self {
+        // What an earlier run wrote there is about another answer. That it cannot be removed is said where the file is written. Devices and
+        // links to them stay.
+        if std::fs::symlink_metadata(path).is_ok_and(|data| data.is_file()) {
+            let _ = std::fs::remove_file(path);
+        }
         Self { path: path.to_owned(), file: None }
     }
 
