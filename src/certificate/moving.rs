@@ -15,7 +15,7 @@ use super::record::{Claim, count, fields};
 use super::refine::{Near, balls};
 use crate::algebra::conjugates::fewest_conjugates;
 use crate::algebra::number::{Angle, HalfTangent};
-use crate::algebra::ring::{Field, Ring, exact_cos_sin};
+use crate::algebra::ring::exact_cos_sin;
 use crate::catalogue::Chains;
 use crate::catalogue::entry::{Design, Entry};
 use crate::kinematics::joint::{JointVariable, Variable};
