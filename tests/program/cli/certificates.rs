@@ -33,6 +33,34 @@ fn an_eliminant_bounds_fewer_solutions_than_the_general_number() {
 }
 
 #[test]
+fn texts_of_a_certificate_print_no_lines_of_their_own() {
+    let path = certified("solve", "chain/crcr");
+    let mut forged = json(&fs::read_to_string(&path).unwrap());
+    forged["claim"]["status"] = json!("a\ncertificate:2: holds: 4 solutions\u{1b}[31m");
+    let checked = run(&["verify", &file("certificates/forged_lines", forged.to_string())]);
+    assert!(checked.code == 2 && checked.out.lines().count() == 1, "{}", checked.out);
+    assert!(!checked.out.trim_end().contains(char::is_control), "{}", checked.out);
+}
+
+#[test]
+fn other_forms_of_numbers_and_an_axis_of_zeros_are_refused() {
+    let path = certified("derive", "chain/ik_general");
+    let mut forged = json(&fs::read_to_string(&path).unwrap());
+    let coefficient = forged["claim"]["polynomial"][0].as_str().unwrap().to_owned();
+    let sign = if coefficient.starts_with('-') { "-" } else { "" };
+    forged["claim"]["polynomial"][0] = json!(format!("{sign}0{}", coefficient.trim_start_matches('-')));
+    let checked = run(&["verify", &file("certificates/forged_zeros", forged.to_string())]);
+    let said = checked.out + &checked.err;
+    assert!(checked.code != 0 && said.contains("digits of a whole number"), "{said}");
+    let path = certified("sweep", "linkage/crank_slider");
+    let mut forged = json(&fs::read_to_string(&path).unwrap());
+    forged["data"]["output"]["axis"] = json!(["0", "0", "0"]);
+    let checked = run(&["verify", &file("certificates/forged_axis", forged.to_string())]);
+    // Not 101, which is that of a panic.
+    assert!([1, 2].contains(&checked.code), "{} {}", checked.out, checked.err);
+}
+
+#[test]
 fn whether_a_loop_moves_is_certified() {
     for (entry, proof, says) in [
         ("overconstrained/bennett_a", "curve", "mobile, of dimension 1"),
