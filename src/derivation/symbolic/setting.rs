@@ -31,8 +31,7 @@ pub(crate) enum Place {
     Turn(usize),
     /// A coordinate of a point of the axis of a joint in screws, counted from 0.
     AxisPoint(usize, usize),
-    /// A coordinate of a point of a platform: the body (0 for the base), the first leg there, and the coordinate. The other legs that meet
-    /// there go with it.
+    /// A coordinate of a point of a platform: the body (0 for the base), the legs that meet there in the file, by bits, and the coordinate.
     Point(usize, usize, usize),
     /// A leg of a platform, counted from 0.
     Leg(usize),
@@ -128,11 +127,10 @@ impl Setting {
                 let Geometry::Screws { joints, .. } = &mut chain.geometry else { return };
                 joints[joint].point[k] = number();
             }
-            Place::Point(body, leg, k) => {
+            Place::Point(body, legs, k) => {
                 let Design::Platform(platform) = &mut entry.design else { return };
                 let points = if body == 0 { &mut platform.base } else { &mut platform.plate };
-                let place = points[leg].clone();
-                for point in points.iter_mut().filter(|point| **point == place) {
+                for (_, point) in points.iter_mut().enumerate().filter(|(leg, _)| legs >> leg & 1 == 1) {
                     point[k] = number();
                 }
             }
@@ -203,9 +201,10 @@ fn of_axes(chain: &Chain) -> Vec<Setting> {
 fn of_points(platform: &Platform<Number>) -> Vec<Setting> {
     let of_body = |(body, points): (usize, &[[Number; 3]; 6])| {
         let is_first = |leg: &usize| !points[..*leg].contains(&points[*leg]);
+        let legs = |leg: usize| (0..6).filter(|other| points[*other] == points[leg]).map(|other| 1 << other).sum();
         let one = |leg: usize, k: usize| {
             let name = format!("{}{}.{}", BODIES[body], leg + 1, COORDINATES[k]);
-            length(name, points[leg][k].rational(), Place::Point(body, leg, k))
+            length(name, points[leg][k].rational(), Place::Point(body, legs(leg), k))
         };
         (0..6).filter(is_first).flat_map(|leg| (0..3).map(move |k| (leg, k))).map(|(leg, k)| one(leg, k)).collect::<Vec<_>>()
     };
