@@ -168,6 +168,8 @@ pub trait Followed: Decidable {
     fn rough(&self) -> BoundedHalf<f64>;
     /// Returns the number as one of an assembly.
     fn value(&self) -> Value;
+    /// Returns a number of which a disc is all that is known.
+    fn within(value: &Value) -> Self;
 }
 
 impl Followed for BoundedHalf<f64> {
@@ -178,6 +180,9 @@ impl Followed for BoundedHalf<f64> {
     }
     fn value(&self) -> Value {
         disc([self.re, self.im].map(|part| Float::with_val(DISC_BITS, part)), self.radius)
+    }
+    fn within(value: &Value) -> Self {
+        value.rough()
     }
 }
 
@@ -196,6 +201,15 @@ impl Followed for BoundedHalf<DoubleDouble> {
         };
         disc([self.re, self.im].map(long), self.radius)
     }
+    fn within(value: &Value) -> Self {
+        let part = |part: &Float| {
+            let high = part.to_f64();
+            DoubleDouble::from(high).add(&DoubleDouble::from(Float::with_val(part.prec(), part - high).to_f64()))
+        };
+        let (re, im) = (part(&value.disc.re), part(&value.disc.im));
+        let off = value.disc.radius().to_f64() * UP + f64::MIN_POSITIVE;
+        Self::new(re, im, off, 2.0, re.in_f64().abs() + im.in_f64().abs())
+    }
 }
 
 impl Followed for Value {
@@ -210,6 +224,9 @@ impl Followed for Value {
     }
     fn value(&self) -> Value {
         self.clone()
+    }
+    fn within(value: &Value) -> Self {
+        value.clone()
     }
 }
 

@@ -7,9 +7,10 @@ use super::assembly::started;
 use super::bounded_half::{BoundedHalf, Followed};
 use super::equations::Closure;
 use super::groups::Group;
+use super::isotropic::turn_within;
 use super::near::off;
 use super::quadratic::{Decidable, Root, Solved, one_cycle, realness};
-use super::state::{State, number, place_of};
+use super::state::{State, number, place_of, turned};
 use crate::algebra::ring::Ring;
 use crate::kinematics::linkage::{Given, Linkage, Pair};
 use num_complex::Complex;
@@ -99,8 +100,13 @@ impl<'a> Dyads<'a> {
         groups.iter().all(is_dyad).then_some(Self { linkage, given, groups, stop })
     }
 
-    fn start<R: Decidable>(&self) -> Result<State<R>, Halt> {
-        started(self.linkage, self.given, place_of::<R>).map_err(|error| Halt::Open(error.to_string()))
+    /// Angles whose cosine and sine are enclosed, are so in every kind of numbers.
+    fn start<R: Followed>(&self) -> Result<State<R>, Halt> {
+        let place = |linkage: &Linkage, given: &Given| {
+            let Given::Turn { joint, within: Some(within), .. } = given else { return place_of(linkage, given) };
+            Some(turned(linkage, *joint, turn_within(within).map(R::within)))
+        };
+        started(self.linkage, self.given, place).map_err(|error| Halt::Open(error.to_string()))
     }
 
     /// Returns the solutions of a group in a branch.

@@ -143,7 +143,7 @@ fn real_assemblies_of_many_dyads_are_listed_without_the_complex_ones() {
     let mut joints = String::from("{ name = \"O\", type = \"R\", of = [\"g\", \"b0\"] },\n");
     for k in 0..count {
         let (coupler, rocker, before) = (2 * k + 1, 2 * k + 2, 2 * k);
-        let _ = write!(ground, ", S{k} = {}", 3 + 3 * k);
+        let _ = write!(ground, ", S{k} = {}", 3 + 4 * k);
         let _ = writeln!(
             bodies,
             "b{coupler} = {{ P{k} = 0, Q{k} = 3 }}\nb{rocker} = {{ Q{k} = 0, S{k} = 2, P{} = [3, 1] }}",

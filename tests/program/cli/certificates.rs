@@ -52,7 +52,8 @@ fn other_forms_of_numbers_and_an_axis_of_zeros_are_refused() {
     let checked = run(&["verify", &file("certificates/forged_zeros", forged.to_string())]);
     let said = checked.out + &checked.err;
     assert!(checked.code != 0 && said.contains("digits of a whole number"), "{said}");
-    let path = certified("sweep", "linkage/crank_slider");
+    let path = file("certificates/sweep-crank_slider", "");
+    run(&["sweep", "linkage/crank_slider", "--from", "-180 deg", "--to", "180 deg", "-q", "--certificate", &path]);
     let mut forged = json(&fs::read_to_string(&path).unwrap());
     forged["data"]["output"]["axis"] = json!(["0", "0", "0"]);
     let checked = run(&["verify", &file("certificates/forged_axis", forged.to_string())]);

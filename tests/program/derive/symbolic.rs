@@ -356,7 +356,7 @@ fn interpolated_polynomials_are_those_of_the_numbers() {
 /// A turn of the tool is one about its own axis: the polynomial at a value of the turn is that of the pose turned so.
 #[test]
 fn a_turn_of_the_tool_is_about_its_own_axis() {
-    let entry = entry("arm/arm_3r3p.toml");
+    let entry = entry("chain/arm_3r3p.toml");
     for (axis, name) in ["turn_x", "turn_y", "turn_z"].into_iter().enumerate() {
         let mut derived = derive_with_symbols(&entry, &entry.cases[0], &[name.to_owned()], &Watch::none()).unwrap();
         // The half-angle tangent 1/2 has the cosine 3/5 and the sine 4/5.
