@@ -59,7 +59,7 @@ impl Corank {
             let (angular, one, two) = (cross(&omega, &own), cross(&omega, &moved), cross(&moment, &own));
             (0..3).map(|i| w[i] * angular[i] + w[3 + i] * (one[i] + two[i])).sum::<f64>()
         };
-        let bends = DMatrix::from_fn(7, 7, |j, k| bent(j, k));
+        let bends = DMatrix::from_fn(7, 7, bent);
         let mut rows = DMatrix::zeros(8, 7);
         let mut right = DVector::zeros(8);
         // The curve is not gone along to meet the closure.
