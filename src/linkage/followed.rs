@@ -42,7 +42,8 @@ fn is_apart(linkage: &Linkage, motion: &Family, before: &State, behind: &State, 
     if !matches!(motion.kind, FamilyKind::Dyad | FamilyKind::Spin) {
         return false;
     }
-    let [mut without, mut with] = [before, behind].map(|state| state.bodies.iter().map(|body| body.0).collect::<Vec<_>>());
+    let [mut without, mut with] =
+        [before, behind].map(|state| state.bodies.iter().map(|body| body.0).collect::<Vec<_>>());
     for group in later {
         let bodies: Vec<usize> = group.joints.iter().flat_map(|joint| linkage.joints[*joint].of).collect();
         let joined = |clusters: &[usize]| bodies.iter().map(|body| clusters[*body]).collect::<BTreeSet<usize>>();
@@ -79,9 +80,11 @@ fn follow_one(linkage: &Linkage, family: &mut Family, before: &State, later: &[G
     let go_on = |sample: &State| {
         let found = attempt(linkage, sample, later, SHALLOW, false, asked).ok()?;
         // Another motion beside the first takes no part in that. Where it does, the first may have to stand still.
-        let (beside, others): (Vec<Family>, Vec<Family>) = found.curves.into_iter().filter(|other| other.state.real).partition(
-            |other| is_one(&other.state) && is_apart(linkage, other, before, sample, later),
-        );
+        let (beside, others): (Vec<Family>, Vec<Family>) = found
+            .curves
+            .into_iter()
+            .filter(|other| other.state.real)
+            .partition(|other| is_one(&other.state) && is_apart(linkage, other, before, sample, later));
         let is_regular = |state: &State| state.real && state.multiplicity == sample.multiplicity;
         let further = match beside.into_iter().max_by_key(|other| other.dimension) {
             Some(other) => (other.state, family.dimension + other.dimension, is_proved && other.is_proved),

@@ -92,7 +92,8 @@ fn row(name: &str, tally: &Tally) -> [String; 15] {
         tally.duplicates,
         tally.certified,
     ];
-    let [problems, answered, complete, truths, found, lost, spurious, double, certified] = counts.map(|n| n.to_string());
+    let [problems, answered, complete, truths, found, lost, spurious, double, certified] =
+        counts.map(|n| n.to_string());
     let time = if time.is_nan() { "-".to_owned() } else { format!("{:.3}", 1e3 * time) };
     [
         name.to_owned(),
@@ -153,7 +154,8 @@ pub fn latex(solver: &str, hash: &str, score: &Score) -> String {
         if name == "all" {
             text += "\\midrule\n";
         }
-        let [_, problems, _, complete, truths, found, lost, spurious, _, _, position, _, rotation, _, time] = row(name, own);
+        let [_, problems, _, complete, truths, found, lost, spurious, _, _, position, _, rotation, _, time] =
+            row(name, own);
         let [position, rotation] = [position, rotation].map(|x| scientific(&x));
         let name = escaped(name);
         text += &format!(

@@ -206,7 +206,11 @@ fn of_points(platform: &Platform<Number>) -> Vec<Setting> {
             let name = format!("{}{}.{}", BODIES[body], leg + 1, COORDINATES[k]);
             length(name, points[leg][k].rational(), Place::Point(body, legs(leg), k))
         };
-        (0..6).filter(is_first).flat_map(|leg| (0..3).map(move |k| (leg, k))).map(|(leg, k)| one(leg, k)).collect::<Vec<_>>()
+        (0..6)
+            .filter(is_first)
+            .flat_map(|leg| (0..3).map(move |k| (leg, k)))
+            .map(|(leg, k)| one(leg, k))
+            .collect::<Vec<_>>()
     };
     [&platform.base, &platform.plate].into_iter().enumerate().flat_map(of_body).collect()
 }

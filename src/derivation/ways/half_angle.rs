@@ -106,7 +106,9 @@ fn four(
     let own = determinants(&parts).map(|found| (found, ""));
     let found = own.or_else(|| determinants(&mixed()).map(|found| (found, " of four combinations of the equations")));
     let (((matrix, one), (_, two)), of) = found.ok_or_else(|| {
-        none("the matrix of this loop is singular for every value of the unknown, also of combinations of the equations")
+        none(
+            "the matrix of this loop is singular for every value of the unknown, also of combinations of the equations",
+        )
     })?;
     let name = |variable: usize| exact.symbols.name(variable / 3);
     let steps = vec![

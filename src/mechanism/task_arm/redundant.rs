@@ -288,12 +288,14 @@ pub(super) fn out_of_reach(case: &Case, distance: (f64, f64)) -> Solution {
 fn nothing_found(mut solution: Solution, more: usize, locked: Vec<FullMode>) -> Solution {
     let verdict = &mut solution.verdict;
     (verdict.status, verdict.proof, verdict.code) = (Status::Incomplete, Proof::None, Code::TooFew);
-    (verdict.complex, verdict.real, verdict.certified, verdict.complex_complete) = (locked.len(), locked.len(), 0, false);
+    (verdict.complex, verdict.real, verdict.certified, verdict.complex_complete) =
+        (locked.len(), locked.len(), 0, false);
     verdict.reason = if locked.is_empty() {
         let joints = if more == 1 { "joint" } else { "joints" };
         format!("not proved: no configuration was found with {more} {joints} held at some values")
     } else {
-        "not proved: no configuration was found with a joint held at some values but those at which the arm is locked".to_owned()
+        "not proved: no configuration was found with a joint held at some values but those at which the arm is locked"
+            .to_owned()
     };
     solution.modes = locked;
     solution.families = Vec::new();

@@ -6,8 +6,8 @@ use crate::kinematics::closed_loop::{Layout, OpenLoop};
 use crate::kinematics::screws::Behind;
 use crate::kinematics::task::Task;
 use crate::kinematics::tolerance::{PoseError, Tolerance};
-use crate::mechanism::{Family, FullMode};
 use crate::mechanism::family::{Joints, Shape};
+use crate::mechanism::{Family, FullMode};
 use crate::solve::curve::{CLOSES_WITHIN, Curve, INPUT, Point};
 use crate::solve::explorer::{Explorer, Piece};
 use crate::solve::locked::locked;
@@ -119,8 +119,7 @@ impl<'a> Tracer<'a> {
         let twin = self.twin(&found);
         let turns = self.curve.turns();
         let is_same = |known: &Point, point: &Point| norm(&apart(known, point, &turns)) < SAME;
-        let is_known =
-            |known: &Point| is_same(known, &found) || twin.as_ref().is_some_and(|twin| is_same(known, twin));
+        let is_known = |known: &Point| is_same(known, &found) || twin.as_ref().is_some_and(|twin| is_same(known, twin));
         if !self.locked.iter().any(is_known) {
             self.locked.push(found);
         }

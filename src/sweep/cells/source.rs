@@ -85,7 +85,12 @@ impl Source {
     }
 
     /// The relation of the first given joint of a linkage, or of a coordinate of a point, and the angle of a body.
-    pub(super) fn of_linkage(linkage: &Linkage, given: &[Given], coordinate: Option<&str>, watch: &Watch<'_>) -> Result<Self> {
+    pub(super) fn of_linkage(
+        linkage: &Linkage,
+        given: &[Given],
+        coordinate: Option<&str>,
+        watch: &Watch<'_>,
+    ) -> Result<Self> {
         let LinkageRelation { exact, unknown, is_probable, proof, .. } =
             LinkageRelation::of(linkage, given, coordinate, watch)?;
         Ok(Self { exact, unknown, is_probable, proof })
