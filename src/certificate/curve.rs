@@ -8,16 +8,16 @@ use crate::kinematics::joint::Variable;
 use crate::kinematics::motion::{Motion, dot};
 use rug::Rational;
 
-/// The joints and links of a loop along a power series, one coefficient after the other. Each is a sum over pairs of earlier ones, so that
+/// The joints and links of a loop along a power series, one coefficient after the other. Each coefficient is a sum over pairs of earlier ones:
 /// all up to the order N cost a square of N, where the products of whole series for every order would cost its cube.
 struct Along<'a> {
     variables: &'a [Variable],
     links: &'a [Motion<Algebraic>],
     /// The coefficients of every unknown, from that of order 0.
     unknowns: Vec<Vec<Algebraic>>,
-    /// Those of cosine and sine of every rotation.
+    /// The coefficients of cosine and sine of every rotation.
     turns: Vec<[Vec<Algebraic>; 2]>,
-    /// Those of the motions of every joint with the link behind it, and of the products up to there.
+    /// The coefficients of the motion of every joint with the link behind it, and of the product of all motions up to this one.
     motions: Vec<[Vec<Motion<Algebraic>>; 2]>,
 }
 
@@ -68,7 +68,8 @@ impl<'a> Along<'a> {
         Some(six(rotation, translation))
     }
 
-    /// Cosine and sine of an unknown that begins with 0: of their derivatives each is the other one times that of the unknown.
+    /// Returns the coefficients of cosine and sine of an unknown that begins with 0. The derivative of each is the other one times the derivative
+    /// of the unknown.
     fn turn(&self, k: usize, order: usize) -> Option<[Algebraic; 2]> {
         if order == 0 {
             return Some([Algebraic::one(), Algebraic::zero()]);
@@ -82,7 +83,7 @@ impl<'a> Along<'a> {
         Some(sums)
     }
 
-    /// A rotation about the z axis, and the link behind it.
+    /// Returns the coefficient of a rotation about the z axis with the link behind it.
     fn turned(&self, k: usize, order: usize, cos: &Algebraic, sin: &Algebraic) -> Motion<Algebraic> {
         let Motion { rotation, translation } = &self.links[k];
         let row = |i: usize, x: &Algebraic, y: &Algebraic| match i {
@@ -97,14 +98,14 @@ impl<'a> Along<'a> {
         }
     }
 
-    /// A translation along the z axis, and the link behind it.
+    /// Returns the coefficient of a translation along the z axis with the link behind it.
     fn displaced(&self, k: usize, order: usize) -> Motion<Algebraic> {
         let mut motion = if order == 0 { self.links[k].clone() } else { nothing() };
         motion.translation[2] = motion.translation[2].add(&self.unknowns[k][order]);
         motion
     }
 
-    /// The coefficient of the product of the first k + 1 motions.
+    /// Returns the coefficient of the product of the first k + 1 motions.
     fn product(&self, k: usize, order: usize) -> Motion<Algebraic> {
         let own = &self.motions[k][0];
         let Some(before) = k.checked_sub(1).map(|before| &self.motions[before][1]) else { return own[order].clone() };

@@ -23,7 +23,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Maximum number of terms: a program that reads larger polynomials is better served by the numbers.
 const MOST_TERMS: usize = 100_000;
-/// Maximum number of products of powers, each of 256 residues of 8 bytes: two thousand bytes for each of them are a gigabyte.
+/// Maximum number of products of powers. Each has 256 residues of 8 bytes, so that all take a gigabyte.
 const MOST_PRODUCTS: usize = 500_000;
 /// Maximum degree in a symbol.
 pub(super) const MOST_DEGREE: usize = 96;

@@ -100,7 +100,7 @@ impl<'a> Dyads<'a> {
         groups.iter().all(is_dyad).then_some(Self { linkage, given, groups, stop })
     }
 
-    /// Angles whose cosine and sine are enclosed, are so in every kind of numbers.
+    /// Returns the branch in which only what is given is placed. Enclosed angles stay enclosed in every kind of numbers.
     fn start<R: Followed>(&self) -> Result<State<R>, Halt> {
         let place = |linkage: &Linkage, given: &Given| {
             let Given::Turn { joint, within: Some(within), .. } = given else { return place_of(linkage, given) };

@@ -36,8 +36,8 @@ pub(super) fn follow(
 }
 
 /// Whether a later motion is one of a group that the motion of an earlier one, solved in the branch `before`, leaves as it is: it joins
-/// as many clusters there as in the branch `behind` that group, once the groups between are placed that the earlier motion leaves as they
-/// are, too. Those that stand on it are placed behind it alone.
+/// as many clusters there as in the branch `behind` that group. The groups between that the earlier motion leaves as they are, too, are placed in
+/// both branches; groups that stand on it are placed in the second one alone.
 fn is_apart(linkage: &Linkage, motion: &Family, before: &State, behind: &State, later: &[Group]) -> bool {
     if !matches!(motion.kind, FamilyKind::Dyad | FamilyKind::Spin) {
         return false;

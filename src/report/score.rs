@@ -165,7 +165,8 @@ pub fn latex(solver: &str, hash: &str, score: &Score) -> String {
     text + "\\bottomrule\n\\end{tabular}\n"
 }
 
-/// The errors as a histogram, in half decades from 1e-17 to 1e-3, and the counts of every mechanism: names of files and tables with commas.
+/// Returns two tables with commas, with the names of their files: the histogram of the errors, in half decades from 1e-17 to 1e-3, and the counts
+/// of every mechanism.
 #[must_use]
 pub fn tables(score: &Score) -> [(&'static str, String); 2] {
     let of = [|e: &Errors| e.position, |e: &Errors| e.rotation, |e: &Errors| e.unknowns];
@@ -187,7 +188,7 @@ pub fn tables(score: &Score) -> [(&'static str, String); 2] {
     [("errors.csv", histogram), ("mechanisms.csv", mechanisms)]
 }
 
-/// An entry for BibTeX: the problems and the program that scored them.
+/// Returns an entry for BibTeX, which names the problems and the program that scored them.
 #[must_use]
 pub fn bibliography(hash: &str) -> String {
     let version = env!("CARGO_PKG_VERSION");

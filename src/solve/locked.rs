@@ -28,7 +28,7 @@ const RANK: f64 = 1e-7;
 
 /// The smallest singular value of the Jacobian at a point, and how it changes.
 struct Corank {
-    /// The closure, with the other sign, and that of the two products `w J v`.
+    /// The closure and the two products `w J v`, with the other sign.
     right: DVector<f64>,
     /// The derivatives of both by the variables.
     rows: DMatrix<f64>,
@@ -79,7 +79,7 @@ impl Corank {
     }
 }
 
-/// A step to where the loop is closed better: of least squares, and damped.
+/// Returns a step to where the loop is closed better, by damped least squares.
 fn towards(curve: &Curve, at: &Point) -> Option<Point> {
     let (closing, jacobian) = curve.closure(at);
     let entry = |i: usize, j: usize| {
@@ -100,7 +100,7 @@ fn go(at: &mut Point, step: &[f64]) -> f64 {
     size
 }
 
-/// The configuration near `start` that closes a loop of seven variables and at which it is locked: no curve of real configurations leads
+/// Returns the configuration near `start` that closes a loop of seven variables and at which it is locked: no curve of real configurations leads
 /// away from it. `None` where the steps lead to no such one.
 #[must_use]
 pub fn locked(curve: &Curve, start: &Point) -> Option<Point> {

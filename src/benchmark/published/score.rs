@@ -58,9 +58,9 @@ pub struct Score {
     pub classes: BTreeMap<String, Tally>,
     /// True solutions by the power of ten of their condition number; the last entry holds multiple solutions.
     pub decades: BTreeMap<i32, Tally>,
-    /// By the mechanism of the problem: its identifier without seed and number.
+    /// The counts by mechanism, which is the identifier of a problem without seed and number.
     pub mechanisms: BTreeMap<String, Tally>,
-    /// By class, the number of problems with so many true solutions.
+    /// The number of problems by their class and their number of true solutions.
     pub numbers: BTreeMap<String, BTreeMap<usize, usize>>,
     /// The problems with a true solution that was lost.
     pub lost_in: Vec<String>,

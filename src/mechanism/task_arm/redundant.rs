@@ -239,7 +239,7 @@ fn middles(found: &[Found]) -> Vec<Vec<f64>> {
     found.iter().filter(is_first).map(|found| found.mode.q.iter().map(|value| value.re).collect()).collect()
 }
 
-/// The answer with curves that were followed, and configurations at which the arm is locked.
+/// Returns the answer with curves that were followed, and with configurations at which the arm is locked.
 fn traced(mut solution: Solution, families: Vec<Family>, locked: Vec<FullMode>) -> Solution {
     let dimension = families.iter().filter(|family| family.distance == 0.0).map(|family| family.dimension).max();
     moves(&mut solution, dimension.unwrap_or(1));
