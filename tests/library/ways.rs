@@ -64,7 +64,7 @@ fn ways_that_do_not_apply_say_why() {
     assert!(message.contains("real angle"), "{message}");
 }
 
-/// Minors of the four equations have a factor in common here; those of combinations of them have none.
+/// The minors of the four equations have a factor in common here, and those of combinations of the equations have none.
 #[test]
 fn half_angle_tangents_serve_where_two_minors_have_a_common_factor() {
     let text = r#"

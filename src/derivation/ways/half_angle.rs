@@ -93,7 +93,7 @@ fn four(
         };
         matrix([[0, 1], [2, 3]]).zip(matrix([[0, 2], [1, 3]]))
     };
-    // Two minors of special equations may have a factor in common: those of combinations of the equations have none.
+    // Two minors of special equations may have a factor in common, which those of combinations of the equations mostly have not.
     let mixed = || -> [[Polynomial<Rational>; 2]; 4] {
         let weight = |i: usize, j: usize| Rational::from(MIXED[i][j]);
         std::array::from_fn(|i| {
