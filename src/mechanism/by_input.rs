@@ -38,6 +38,13 @@ impl<T> ByInput<T> {
         Ok(Self(all))
     }
 
+    /// Prepares one layout, for cases that lock its variable.
+    pub fn only(layout: Layout, one: impl FnOnce(Layout) -> Result<T>) -> Result<Self> {
+        let (locked, start) = (layout.locked, Instant::now());
+        let of = one(layout)?;
+        Ok(Self(vec![Prepared { locked, prepare_us: start.elapsed().as_secs_f64() * 1e6, of }]))
+    }
+
     /// Returns the preparation for the locked joint of one case.
     pub fn of(&self, chain: &Chain, case: &Case) -> Result<&Prepared<T>> {
         let locked = locked_variable(chain, case)?;

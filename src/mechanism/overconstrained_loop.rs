@@ -1,11 +1,12 @@
 //! Loops with fewer than six unknowns: overconstrained mechanisms and structures.
 
+mod apart;
 mod beside;
 mod few_revolutes;
 
 use super::by_input::{ByInput, Prepared};
 use super::exact_loop::{self, Question};
-use super::single_loop::{closing_transformation, full_mode, is_exact, locked_value, within_limits};
+use super::single_loop::{SingleLoop, closing_transformation, full_mode, is_exact, locked_value, within_limits};
 use super::spherical_chain::{Positions, positions};
 use super::{FullMode, Solution};
 use crate::algebra::drawn::Drawn;
@@ -70,6 +71,8 @@ struct Rung {
     most: OnceLock<Option<usize>>,
     /// The count of solutions, computed at its first use; `None` for an unlucky prime.
     counting: OnceLock<Option<Counting>>,
+    /// The loop with the virtual joints, prepared at its first use to prove all solutions; `None` where it is out of reach.
+    longer: OnceLock<Option<Box<SingleLoop>>>,
 }
 
 /// Two other choices of idle axes, modulo a prime.
@@ -179,7 +182,8 @@ fn rungs(chain: &Chain, layout: &Layout) -> Result<Vec<Rung>> {
                 break;
             }
             let open = open.over(unit);
-            rungs.push(Rung { layout, solver, open, most: OnceLock::new(), counting: OnceLock::new() });
+            let (most, counting, longer) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
+            rungs.push(Rung { layout, solver, open, most, counting, longer });
         }
     }
     if rungs.is_empty() {
@@ -234,7 +238,12 @@ impl OverconstrainedLoop {
                 (beside.verdict, beside.modes)
             }
             Some(answer) => answer,
-            None => self.isolated(ladder, case, roots, workspace, assembly)?,
+            None => {
+                let (found, modes) = self.isolated(ladder, case, roots, workspace, assembly)?;
+                let is_open = found.proof == Proof::None && found.complex == 0 && found.self_motion == 0;
+                let denied = if is_open { self.denied(ladder, case, workspace, assembly) } else { None };
+                (denied.unwrap_or(found), modes)
+            }
         };
         let mut warnings = case.warnings.clone();
         if locked.is_some() && verdict.complex == 0 && verdict.self_motion == 0 {

@@ -170,6 +170,13 @@ impl SingleLoop {
         Ok(Self { chain, limits, is_rounded: entry.rounded, prepared, forward })
     }
 
+    /// Prepares a chain with the virtual joints of a layout, which make six unknowns of fewer.
+    pub(super) fn with_virtual_joints(chain: &Chain, layout: Layout) -> Result<Self> {
+        let prepared = ByInput::only(layout, |layout| way(chain, layout))?;
+        let (chain, limits, forward) = (chain.clone(), Vec::new(), OnceLock::new());
+        Ok(Self { chain, limits, is_rounded: true, prepared, forward })
+    }
+
     /// Solves one case.
     pub(super) fn solve(
         &self,
@@ -194,7 +201,7 @@ impl SingleLoop {
     }
 
     /// Lists the solutions of one case.
-    fn list(
+    pub(super) fn list(
         &self,
         case: &Case,
         roots: Roots,

@@ -35,6 +35,42 @@ fn a_link_that_is_too_long_denies_a_loop() {
     assert_eq!(planar(["1", "2", "59999999/10000000", "3"]).0, Status::SelfMotion);
 }
 
+/// Irrational numbers are known within intervals only. A loop of fewer than six unknowns is proved not to close with them where every
+/// solution with virtual joints has one of these apart from zero.
+#[test]
+fn irrational_loops_are_proved_not_to_close() {
+    let verdict = |twist: &str| {
+        let joint = |a: &str, alpha: &str, d: &str| format!("{{ type = \"R\", a = \"{a}\", {alpha}, d = \"{d}\" }}");
+        let half = |tangent: &str| format!("tan_half_alpha = \"{tangent}\"");
+        let joints = [
+            joint("0.456", &half("1/3"), "0.295"),
+            joint("sqrt(2)", "alpha = \"pi\"", "-0.203"),
+            joint("0", &format!("alpha = \"{twist}\""), "0.959"),
+            joint("-0.77", &half("1 + 1e-6"), "-0.978"),
+            joint("-0.683", &half("1/4"), "0.846"),
+            "{ type = \"P\", a = \"0.183\", tan_half_alpha = \"1 + 1e-8\", tan_half_theta = \"2/3\" }".to_owned(),
+        ];
+        let text = format!(
+            "[mechanism]\nkind = \"loop\"\nconvention = \"dh\"\njoints = [{}]\n[[input]]\njoint = 2\ntan_half = \"1/3\"\n",
+            joints.join(", ")
+        );
+        let Any::Entry(entry) = any_from_text(&text, "x.toml", Format::Toml, &Options::default()).unwrap() else {
+            panic!("a loop")
+        };
+        let mechanism = Mechanism::prepare(&entry).unwrap();
+        let (mut workspace, mut assembly) = (Workspace::default(), Assembly::default());
+        mechanism.solve(&entry.cases[0], Roots::All, &mut workspace, &mut assembly).unwrap().verdict
+    };
+    for twist in ["40 deg", "17 deg"] {
+        let verdict = verdict(twist);
+        assert_eq!(
+            (verdict.status, verdict.code, verdict.proof),
+            (Status::Unreachable, Code::NoSolution, Proof::Proved)
+        );
+        assert!(verdict.reason.contains("all proved"), "{}", verdict.reason);
+    }
+}
+
 /// The degree of the closure polynomial, and how many joints have one with the input.
 fn derived(name: &str) -> [usize; 2] {
     let entry = entry(name);
