@@ -99,12 +99,12 @@ def most_solutions(system, aid):
 
 
 def own_eliminant(system, values, item):
-    """Theorem 11: modes of the longer loop, as many as the eliminant of the loop itself allows it. Where it allows none, one solution of
-    the longer loop shows that the data are these."""
+    """Theorem 11: modes of the longer loop, as many as the eliminant of the loop itself allows it. One more solution of the longer loop may
+    show that the data are these; it has to where no solution is allowed."""
     _, stated, aid = fields(item, ("kind", "value", "aid"))
     require(system.size < 6, "proof: own-eliminant: the loop has six unknowns")
     most, modes = most_solutions(system, aid), proved_modes(lengthened(system), values)
-    holds = most == whole(stated) and len(modes) == max(most, 1)
+    holds = most == whole(stated) and len(modes) - most in ((0, 1) if most else (1,))
     require(holds, f"proof: own-eliminant: the bound is {most}, {stated} is stated, and {len(modes)} modes are proved")
     return modes
 

@@ -183,11 +183,6 @@ impl ChainClosure {
             translation: link.translation.each_ref().map(S::of),
         })
     }
-
-    fn product<S: Enclosing>(&self, point: &Point<S>) -> Motion<S> {
-        let [first, rest @ ..] = motions(point, &self.links());
-        rest.iter().fold(first, |product, motion| product.then_after(motion))
-    }
 }
 
 /// Returns the motions of all unknowns with the links behind them.
@@ -219,18 +214,25 @@ pub(super) fn six<S: Ring>(rotation: &[[S; 3]; 3], translation: &[S; 3]) -> [S; 
 }
 
 impl Closure<6> for ChainClosure {
+    type Constants<S: Enclosing> = [Motion<S>; 6];
+
+    fn constants<S: Enclosing>(&self) -> [Motion<S>; 6] {
+        self.links()
+    }
+
     fn angles(&self) -> [bool; 6] {
         self.variables.map(|variable| variable == Variable::Rotation)
     }
 
-    fn values<S: Enclosing>(&self, point: &Point<S>) -> [S; 6] {
-        let product = self.product(point);
+    fn values<S: Enclosing>(&self, links: &[Motion<S>; 6], point: &Point<S>) -> [S; 6] {
+        let [first, rest @ ..] = motions(point, links);
+        let product = rest.iter().fold(first, |product, motion| product.then_after(motion));
         six(&product.rotation, &product.translation)
     }
 
-    fn jacobian<S: Enclosing>(&self, point: &Point<S>) -> [[S; 6]; 6] {
-        let links = self.links();
-        let motions = motions(point, &links);
+    /// Tests the trace of the product as well: a symmetric rotation is the identity, of trace 3, or a half-turn, of trace -1.
+    fn slope<S: Enclosing>(&self, links: &[Motion<S>; 6], point: &Point<S>) -> ([[S; 6]; 6], bool) {
+        let motions = motions(point, links);
         let mut behind = vec![Motion::identity()];
         for motion in motions[1..].iter().rev() {
             let next = motion.then_after(&behind[behind.len() - 1]);
@@ -259,14 +261,9 @@ impl Closure<6> for ChainClosure {
             before = before.then_after(&motions[k]);
             column
         });
-        std::array::from_fn(|i| std::array::from_fn(|k| columns[k][i].clone()))
-    }
-
-    /// Tests the trace: a symmetric rotation is the identity, of trace 3, or a half-turn, of trace -1.
-    fn is_solution<S: Enclosing>(&self, point: &Point<S>) -> bool {
-        let rotation = self.product(point).rotation;
-        let trace = rotation[0][0].add(&rotation[1][1]).add(&rotation[2][2]);
-        trace.add(&S::one()).at_least() > 0.0
+        let trace = before.rotation[0][0].add(&before.rotation[1][1]).add(&before.rotation[2][2]);
+        let is_solution = trace.add(&S::one()).at_least() > 0.0;
+        (std::array::from_fn(|i| std::array::from_fn(|k| columns[k][i].clone())), is_solution)
     }
 
     /// Compares angles modulo 2 pi; a spherical joint has two triples of angles for every rotation.
@@ -293,6 +290,10 @@ impl ChainClosure {
 
 /// Bits in which pi is compared with rational numbers.
 const PI_BITS: u32 = 512;
+/// Angles that differ by more than this in f64 differ by more than any radius below [`SMALL`].
+const CLEAR: f64 = 1e-4;
+/// See [`CLEAR`].
+const SMALL: f64 = 1e-5;
 /// Maximum number of full turns by which centres may differ.
 const MOST_TURNS: i32 = 3;
 
@@ -318,6 +319,12 @@ pub(super) fn are_far((re, im): (Rational, Rational), halves: Option<i32>, radiu
     let Some(halves) = halves else { return re.abs() > *radius };
     if Rational::from(re.abs_ref()) > 6 * MOST_TURNS - 4 {
         return false;
+    }
+    // Most angles differ by much more than a radius, and than all roundings of f64 here, which are below 1e-14.
+    let (near, is_small) = (re.to_f64(), *radius < SMALL);
+    let is_clear = |turn: i32| (near - std::f64::consts::PI * f64::from(2 * turn + halves)).abs() > CLEAR;
+    if is_small && (-MOST_TURNS..=MOST_TURNS).all(is_clear) {
+        return true;
     }
     let pi = Float::with_val(PI_BITS, Constant::Pi).to_rational().unwrap_or_default();
     // pi is off by less than 1e-150, and so are its small multiples.

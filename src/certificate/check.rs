@@ -177,7 +177,9 @@ pub fn check(certificate: &Value, file: Option<&Any>) -> Result<Holds, Fault> {
         return real_list(&closed, &proof[0], &record.claim, &balls);
     }
     let bound = bound(&closed, proof, &balls)?;
-    if balls.len() != if kind == OF_OWN { shown(bound) } else { bound } {
+    // One more shows that the data are these where the solutions of the loop itself may be those of others as well.
+    let is_more = kind == OF_OWN && bound > 0 && balls.len() == bound + 1;
+    if !is_more && balls.len() != if kind == OF_OWN { shown(bound) } else { bound } {
         return refused(format!("proof: at most {bound} solutions, and {} modes are proved", balls.len()));
     }
     let balls = match &closed {

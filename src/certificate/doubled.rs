@@ -114,6 +114,14 @@ impl Field for Doubled {
     const PIVOT_ZERO: f64 = 0.0;
 }
 
+impl Doubled {
+    /// Returns the centre in other numbers.
+    pub(super) fn centre<S: Enclosing>(&self) -> S {
+        let rest = |x: DoubleDouble| x.sub(&DoubleDouble::from(x.to_f64())).to_f64();
+        S::holding(self.re.to_f64(), self.im.to_f64()).add(&S::holding(rest(self.re), rest(self.im)))
+    }
+}
+
 impl Enclosing for Doubled {
     const BITS: u32 = 107;
     fn near(re: &Float, im: &Float, radius: f64) -> Self {
@@ -125,6 +133,9 @@ impl Enclosing for Doubled {
             return Self { re, ..Self::zero() };
         }
         Self::with(re, DoubleDouble::zero(), off)
+    }
+    fn holding(re: f64, im: f64) -> Self {
+        Self { re: DoubleDouble::from(re), im: DoubleDouble::from(im), radius: 0.0 }
     }
     fn middle(&self) -> Self {
         Self { radius: 0.0, ..self.clone() }

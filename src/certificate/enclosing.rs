@@ -1,5 +1,6 @@
 //! The numbers of the checker: complex numbers with a bound on their errors.
 
+use super::isolation::Point;
 use crate::algebra::ball::Ball;
 use crate::algebra::enclosure::Enclosure;
 use crate::algebra::ring::Field;
@@ -9,6 +10,10 @@ use rug::{Float, Rational, float::Round};
 const GUARD: u32 = 32;
 /// Precision of bounds, in bits.
 const BOUND: u32 = 53;
+/// Radii up to this multiply bounds by [`GROWN`] at most.
+const SMALL: f64 = 1e-3;
+/// An upper bound of `exp(1e-3)`, and of the roundings of what it is multiplied with.
+const GROWN: f64 = 1.01;
 
 /// Complex numbers known up to a radius, independent of the arithmetic used for them.
 pub(super) trait Enclosing: Field {
@@ -18,6 +23,10 @@ pub(super) trait Enclosing: Field {
     fn near(re: &Float, im: &Float, radius: f64) -> Self;
     /// Converts a real number of the data.
     fn of(known: &Enclosure) -> Self;
+    /// Returns a ball that holds the point with these coordinates, as small as rounding allows.
+    fn holding(re: f64, im: f64) -> Self {
+        Self::near(&Float::with_val(BOUND, re), &Float::with_val(BOUND, im), 0.0)
+    }
     /// Returns the midpoint alone.
     fn middle(&self) -> Self;
     /// Returns an upper bound of the absolute value.
@@ -35,29 +44,89 @@ pub(super) trait Enclosing: Field {
     }
 
     /// Returns cosine and sine of all angles within a radius of a rational point.
-    ///
-    /// Neither changes by more than `r exp(|im| + r)` within the radius r.
-    fn cos_sin_about((re, im): &(Rational, Rational), radius: f64) -> (Self, Self) {
-        let bits = Self::BITS + GUARD;
-        let up = |x: Float| Float::with_val_round(BOUND, x, Round::Up).0;
+    fn cos_sin_about(angle: &(Rational, Rational), radius: f64) -> (Self, Self) {
+        Turn::of(angle, Self::BITS + GUARD).within(radius)
+    }
+}
+
+/// Cosine and sine of a rational angle, real or not, from which those of all angles within a radius follow.
+pub(super) struct Turn {
+    /// Real and imaginary part of the cosine, then of the sine.
+    parts: [(Float, Float); 2],
+    /// An upper bound of the error of the angle.
+    error: f64,
+    /// A bound of `exp(|im|)`, low by less than the roundings that [`GROWN`] covers.
+    size: f64,
+}
+
+impl Turn {
+    /// Computes cosine and sine with this many bits.
+    fn of((re, im): &(Rational, Rational), bits: u32) -> Self {
         // Where a cosine is nearly 0, the rounding of its argument is large beside it.
         let rounded = |q: &Rational| {
             let (x, order) = Float::with_val_round(bits, q, Round::Nearest);
-            let error = if order.is_eq() { 0.0 } else { (up(x.clone().abs()) >> bits).to_f64_round(Round::Up) };
+            let above = || Float::with_val_round(BOUND, x.abs_ref(), Round::Up).0;
+            let error = if order.is_eq() { 0.0 } else { (above() >> bits).to_f64_round(Round::Up) };
             (x, error)
         };
         let ((re, of_re), (im, of_im)) = (rounded(re), rounded(im));
-        let error = of_re + of_im;
-        let radius = if error > 0.0 { (radius + error.next_up()).next_up() } else { radius };
-        let growth = up(up(up(im.clone().abs()) + radius) + 1e-3_f64).exp();
-        let off = if radius == 0.0 { 0.0 } else { (up(growth) * radius).to_f64_round(Round::Up).next_up() };
+        let error = if of_re + of_im > 0.0 { (of_re + of_im).next_up() } else { 0.0 };
         let (sin, cos) = re.sin_cos(Float::new(bits));
+        if im.is_zero() {
+            let none = || Float::new(2);
+            return Self { parts: [(cos, none()), (sin, none())], error, size: 1.0 };
+        }
         let (sinh, cosh) = im.sinh_cosh(Float::new(bits));
         let part = |a: &Float, b: &Float| Float::with_val(bits, a * b);
-        let minus = |x: Float| -x;
-        let cosine = Self::near(&part(&cos, &cosh), &minus(part(&sin, &sinh)), off);
-        let sine = Self::near(&part(&sin, &cosh), &part(&cos, &sinh), off);
+        let size = cosh.to_f64_round(Round::Up) + sinh.to_f64().abs();
+        let cosine = (part(&cos, &cosh), -part(&sin, &sinh));
+        Self { parts: [cosine, (part(&sin, &cosh), part(&cos, &sinh))], error, size }
+    }
+
+    /// Returns cosine and sine of all angles within a radius. Neither changes by more than `r exp(|im| + r)` within the radius r.
+    fn within<S: Enclosing>(&self, radius: f64) -> (S, S) {
+        let radius = if self.error > 0.0 { (radius + self.error).next_up() } else { radius };
+        let off = if radius == 0.0 {
+            0.0
+        } else {
+            let growth = if radius <= SMALL { GROWN } else { GROWN * up_exp(radius) };
+            (self.size * growth * radius).next_up()
+        };
+        let [cosine, sine] = self.parts.each_ref().map(|(re, im)| S::near(re, im, off));
         (cosine, sine)
+    }
+}
+
+/// Returns an upper bound of the exponential of a positive number.
+fn up_exp(x: f64) -> f64 {
+    let mut power = Float::with_val(BOUND, x);
+    power.exp_round(Round::Up);
+    power.to_f64()
+}
+
+/// A rational point, and cosine and sine of those of its coordinates that are angles, from which points within all radii follow.
+pub(super) struct Centre {
+    x: Vec<(Float, Float)>,
+    turns: Vec<Option<Turn>>,
+}
+
+impl Centre {
+    /// Computes the point for numbers of this many bits and fewer.
+    pub(super) fn of(x: &[(Rational, Rational)], angles: &[bool], bits: u32) -> Self {
+        let bits = bits + GUARD;
+        let float = |q: &Rational| Float::with_val(bits, q);
+        Self {
+            x: x.iter().map(|(re, im)| (float(re), float(im))).collect(),
+            turns: x.iter().zip(angles).map(|(x, is_angle)| is_angle.then(|| Turn::of(x, bits))).collect(),
+        }
+    }
+
+    /// Returns all points within a radius, in the largest norm.
+    pub(super) fn within<S: Enclosing>(&self, radius: f64) -> Point<S> {
+        Point {
+            x: self.x.iter().map(|(re, im)| S::near(re, im, radius)).collect(),
+            turns: self.turns.iter().map(|turn| turn.as_ref().map(|turn| turn.within(radius))).collect(),
+        }
     }
 }
 

@@ -298,17 +298,16 @@ impl LinkageClosure {
         });
         classes.chain(slides).collect()
     }
+}
 
-    /// Returns the sums round all loops, coordinates x and y in turn.
-    fn sums<S: Enclosing>(&self, factors: &[[S; 2]]) -> Vec<S> {
-        let sum = |own: &Vec<[Enclosure; 2]>| {
-            own.iter().zip(factors).fold([S::zero(), S::zero()], |[x, y], ([a, b], [cos, sin])| {
-                let (a, b) = (S::of(a), S::of(b));
-                [x.add(&a.mul(cos)).sub(&b.mul(sin)), y.add(&a.mul(sin)).add(&b.mul(cos))]
-            })
-        };
-        self.enclosed.iter().flat_map(sum).collect()
-    }
+/// Returns the sums round all loops, coordinates x and y in turn.
+fn sums<S: Enclosing>(loops: &[Vec<[S; 2]>], factors: &[[S; 2]]) -> Vec<S> {
+    let sum = |own: &Vec<[S; 2]>| {
+        own.iter().zip(factors).fold([S::zero(), S::zero()], |[x, y], ([a, b], [cos, sin])| {
+            [x.add(&a.mul(cos)).sub(&b.mul(sin)), y.add(&a.mul(sin)).add(&b.mul(cos))]
+        })
+    };
+    loops.iter().flat_map(sum).collect()
 }
 
 /// Maximum number of bodies: with six unknowns the others are held by inputs.
@@ -344,29 +343,32 @@ fn loops(linkage: &Linkage, mut steps: Vec<Step>, count: usize) -> Result<Vec<Ve
 }
 
 impl Closure<UNKNOWNS> for LinkageClosure {
+    type Constants<S: Enclosing> = Vec<Vec<[S; 2]>>;
+
+    fn constants<S: Enclosing>(&self) -> Vec<Vec<[S; 2]>> {
+        self.enclosed.iter().map(|own| own.iter().map(|pair| pair.each_ref().map(S::of)).collect()).collect()
+    }
+
     fn angles(&self) -> [bool; UNKNOWNS] {
         std::array::from_fn(|k| k + 1 < self.classes)
     }
 
-    fn values<S: Enclosing>(&self, point: &Point<S>) -> [S; UNKNOWNS] {
-        let sums = self.sums(&self.factors(point, None));
+    fn values<S: Enclosing>(&self, loops: &Vec<Vec<[S; 2]>>, point: &Point<S>) -> [S; UNKNOWNS] {
+        let sums = sums(loops, &self.factors(point, None));
         std::array::from_fn(|k| sums.get(k).unwrap_or(&point.x[k]).clone())
     }
 
-    fn jacobian<S: Enclosing>(&self, point: &Point<S>) -> [[S; UNKNOWNS]; UNKNOWNS] {
-        let columns: Vec<Vec<S>> = (0..self.size()).map(|k| self.sums(&self.factors(point, Some(k)))).collect();
-        std::array::from_fn(|row| {
+    /// Every zero of the equations closes all loops.
+    fn slope<S: Enclosing>(&self, loops: &Vec<Vec<[S; 2]>>, point: &Point<S>) -> ([[S; UNKNOWNS]; UNKNOWNS], bool) {
+        let columns: Vec<Vec<S>> = (0..self.size()).map(|k| sums(loops, &self.factors(point, Some(k)))).collect();
+        let slope = std::array::from_fn(|row| {
             std::array::from_fn(|k| match columns.get(k).and_then(|column| column.get(row)) {
                 Some(slope) => slope.clone(),
                 None if row == k => S::one(),
                 None => S::zero(),
             })
-        })
-    }
-
-    /// Holds always: every zero of the equations closes all loops.
-    fn is_solution<S: Enclosing>(&self, _: &Point<S>) -> bool {
-        true
+        });
+        (slope, true)
     }
 
     fn are_apart(&self, one: &Ball, other: &Ball) -> bool {

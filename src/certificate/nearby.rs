@@ -25,6 +25,11 @@ pub(super) struct Nearby {
 }
 
 impl Nearby {
+    /// Returns the centre in other numbers.
+    pub(super) fn centre<S: Enclosing>(&self) -> S {
+        S::holding(self.re, self.im)
+    }
+
     fn size(&self) -> f64 {
         self.re.abs() + self.im.abs()
     }

@@ -75,46 +75,60 @@ fn parts<S: Ring>(point: &Point<S>) -> ([&S; 4], [S; 3]) {
     (std::array::from_fn(|k| &point.x[k]), std::array::from_fn(|k| point.x[4 + k].clone()))
 }
 
+/// Points of base and moving platform, and the squares of the legs.
+pub(super) struct Constants<S> {
+    base: [[S; 3]; 6],
+    plate: [[S; 3]; 6],
+    squares: [S; 6],
+}
+
 impl Closure<7> for PlatformClosure {
+    type Constants<S: Enclosing> = Constants<S>;
+
+    fn constants<S: Enclosing>(&self) -> Constants<S> {
+        let points = |points: &[[Enclosure; 3]; 6]| points.each_ref().map(|point| point.each_ref().map(S::of));
+        let (base, plate) = (points(&self.base), points(&self.plate));
+        Constants { base, plate, squares: self.squares.each_ref().map(S::of) }
+    }
+
     fn angles(&self) -> [bool; 7] {
         [false; 7]
     }
 
     /// With |x| = 1: `p.p + b.b + a.a + 2 (p - a).R b - 2 a.p - l^2`.
-    fn values<S: Enclosing>(&self, point: &Point<S>) -> [S; 7] {
+    fn values<S: Enclosing>(&self, constants: &Constants<S>, point: &Point<S>) -> [S; 7] {
+        let Constants { base, plate, squares } = constants;
         let (x, p) = parts(point);
         let matrix = rotation(x);
         std::array::from_fn(|row| {
             let Some(leg) = row.checked_sub(1) else {
                 return x.iter().fold(S::one().neg(), |sum, q| sum.add(&q.mul(q)));
             };
-            let (a, b) = (self.base[leg].each_ref().map(S::of), self.plate[leg].each_ref().map(S::of));
+            let (a, b) = (&base[leg], &plate[leg]);
             let gap: [S; 3] = std::array::from_fn(|k| p[k].sub(&a[k]));
-            let mixed = dot(&gap, &turned(&matrix, &b)).sub(&dot(&a, &p));
-            dot(&p, &p).add(&dot(&b, &b)).add(&dot(&a, &a)).add(&twice(&mixed)).sub(&S::of(&self.squares[leg]))
+            let mixed = dot(&gap, &turned(&matrix, b)).sub(&dot(a, &p));
+            dot(&p, &p).add(&dot(b, b)).add(&dot(a, a)).add(&twice(&mixed)).sub(&squares[leg])
         })
     }
 
-    fn jacobian<S: Enclosing>(&self, point: &Point<S>) -> [[S; 7]; 7] {
+    /// Every zero of the seven equations is a pose.
+    fn slope<S: Enclosing>(&self, constants: &Constants<S>, point: &Point<S>) -> ([[S; 7]; 7], bool) {
+        let Constants { base, plate, .. } = constants;
         let (x, p) = parts(point);
         let (matrix, slopes) = (rotation(x), slopes(x));
-        std::array::from_fn(|row| {
+        let slope = std::array::from_fn(|row| {
             let Some(leg) = row.checked_sub(1) else {
                 return std::array::from_fn(|k| x.get(k).map_or_else(S::zero, |q| twice(*q)));
             };
-            let (a, b) = (self.base[leg].each_ref().map(S::of), self.plate[leg].each_ref().map(S::of));
+            let (a, b) = (&base[leg], &plate[leg]);
             let gap: [S; 3] = std::array::from_fn(|k| p[k].sub(&a[k]));
-            let moved = turned(&matrix, &b);
+            let moved = turned(&matrix, b);
             std::array::from_fn(|k| match k.checked_sub(4) {
-                None => twice(&twice(&dot(&gap, &turned(&slopes[k], &b)))),
+                None => twice(&twice(&dot(&gap, &turned(&slopes[k], b)))),
                 Some(k) => twice(&gap[k].add(&moved[k])),
             })
-        })
-    }
-
-    /// Holds always: every zero of the seven equations is a pose.
-    fn is_solution<S: Enclosing>(&self, _: &Point<S>) -> bool {
-        true
+        });
+        (slope, true)
     }
 
     /// Compares up to sign: a quaternion and its negative are one pose.

@@ -38,7 +38,7 @@ pub(super) fn coordinates(closure: &ChainClosure, near: &[Complex<f64>]) -> Opti
     let part = |x: f64| Some((Rational::from_f64(x)?, ()));
     let mut x: Vec<(Rational, Rational)> =
         near.iter().map(|z| Some((part(z.re)?.0, part(z.im)?.0))).collect::<Option<_>>()?;
-    let angles = closure.angles();
+    let (angles, links) = (closure.angles(), closure.constants());
     let mut turns = Vec::new();
     for step in 0..=STEPS {
         turns = (0..6).map(|k| angles[k].then(|| Far::cos_sin_about(&x[k], 0.0))).collect();
@@ -46,8 +46,8 @@ pub(super) fn coordinates(closure: &ChainClosure, near: &[Complex<f64>]) -> Opti
             break;
         }
         let point = Point { x: x.iter().map(|x| Far::about(x, 0.0)).collect(), turns: turns.clone() };
-        let inverse = near_inverse(&closure.jacobian(&point))?;
-        let values = closure.values(&point);
+        let inverse = near_inverse(&closure.slope(&links, &point).0)?;
+        let values = closure.values(&links, &point);
         for (row, (re, im)) in inverse.iter().zip(&mut x) {
             let change = row.iter().zip(&values).fold(Far::zero(), |sum, (c, f)| sum.add(&c.mul(f)));
             let less = |x: &Rational, by: &Float| Float::with_val(BITS, Float::with_val(BITS, x) - by).to_rational();

@@ -192,10 +192,10 @@ fn parsed(written: &str) -> Option<Rational> {
         return None;
     }
     let tail = tail.unwrap_or_default();
-    let digits = Rational::from(format!("{head}{tail}").parse::<Integer>().ok()?);
+    let digits = format!("{head}{tail}").parse::<Integer>().ok()?;
     let power = exponent - i32::try_from(tail.len()).ok()?;
-    let scale = Rational::from(Integer::from(10).pow(power.unsigned_abs()));
-    let size = if power < 0 { digits / scale } else { digits * scale };
+    let scale = Integer::from(10).pow(power.unsigned_abs());
+    let size = if power < 0 { Rational::from((digits, scale)) } else { Rational::from(digits * scale) };
     Some(if negative { -size } else { size })
 }
 

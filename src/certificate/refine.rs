@@ -1,12 +1,10 @@
 //! Balls for a certificate, from solutions that are known to a few digits.
 
 use super::chain::ChainClosure;
-use super::doubled::Doubled;
-use super::enclosing::{Enclosing, near_inverse};
-use super::isolation::{Closed, Closure, Longer, Point, all as proved, holds_one};
+use super::enclosing::{Centre, Enclosing, near_inverse};
+use super::isolation::{Closed, Closure, Digits, Longer, Middle, Ready, all as proved};
 use super::linkage::{LinkageClosure, UNKNOWNS};
 use super::mode::Ball;
-use super::nearby::Nearby;
 use crate::algebra::ring::Ring;
 use crate::kinematics::joint::Variable;
 use num_complex::Complex;
@@ -61,20 +59,27 @@ pub fn balls_of_linkage(closure: &LinkageClosure, near: &[Near]) -> Option<Vec<B
 }
 
 fn all<const N: usize>(closure: &impl Closure<N>, near: &[Near], radii: &[u32]) -> Option<Vec<Ball>> {
-    let centres: Vec<Vec<(Rational, Rational)>> =
-        near.iter().map(|(x, real)| refined(closure, x, *real)).collect::<Option<_>>()?;
+    let (ready, angles) = (Ready::of(closure), closure.angles());
+    let balls: Vec<(Ball, Middle)> = near
+        .iter()
+        .map(|(x, real)| {
+            let ball = Ball { centre: refined(closure, x, *real)?, radius: Rational::new(), real: *real };
+            let middle = Middle::of(&ball, &angles);
+            Some((ball, middle))
+        })
+        .collect::<Option<_>>()?;
     (0..radii.len()).find_map(|start| {
-        let one = |(centre, (_, real)): (&Vec<(Rational, Rational)>, &Near)| {
+        let one = |(about, middle): &(Ball, Middle)| {
             let ball = |exponent: &u32| {
                 let radius = Rational::from((Integer::from(1), Integer::from(10).pow(*exponent)));
-                Ball { centre: centre.clone(), radius, real: *real }
+                Ball { radius, ..about.clone() }
             };
-            let by = |proves: &dyn Fn(&Ball) -> bool| radii[start..].iter().map(ball).find(|ball| proves(ball));
-            by(&|ball| [ball, &wider(ball)].iter().all(|ball| holds_one::<N, Nearby>(closure, ball)))
-                .or_else(|| by(&|ball| [ball, &wider(ball)].iter().all(|ball| holds_one::<N, Doubled>(closure, ball))))
-                .or_else(|| by(&|ball| [ball, &wider(ball)].iter().all(|ball| holds_one::<N, Longer>(closure, ball))))
+            let has_room =
+                |ball: &Ball, digits| [ball, &wider(ball)].iter().all(|ball| ready.holds_one(ball, middle, digits));
+            let by = |digits| radii[start..].iter().map(ball).find(|ball| has_room(ball, digits));
+            Digits::ALL.into_iter().find_map(by)
         };
-        let balls: Vec<Ball> = centres.iter().zip(near).map(one).collect::<Option<_>>()?;
+        let balls: Vec<Ball> = balls.iter().map(one).collect::<Option<_>>()?;
         proved(closure, &balls).is_ok().then_some(balls)
     })
 }
@@ -97,14 +102,11 @@ fn refined<const N: usize>(
     if x.len() != N {
         return None;
     }
-    let angles = closure.angles();
+    let (angles, constants) = (closure.angles(), closure.constants());
     for _ in 0..STEPS {
-        let point = Point {
-            x: x.iter().map(|x| Longer::about(x, 0.0)).collect(),
-            turns: (0..N).map(|k| angles[k].then(|| Longer::cos_sin_about(&x[k], 0.0))).collect(),
-        };
-        let inverse = near_inverse(&closure.jacobian(&point))?;
-        let values = closure.values(&point);
+        let point = Centre::of(&x, &angles, Longer::BITS).within::<Longer>(0.0);
+        let inverse = near_inverse(&closure.slope(&constants, &point).0)?;
+        let values = closure.values(&constants, &point);
         let mut largest: f64 = 0.0;
         for (row, (re, im)) in inverse.iter().zip(&mut x) {
             let step = row.iter().zip(&values).fold(Longer::zero(), |sum, (c, f)| sum.add(&c.mul(f)));

@@ -160,9 +160,11 @@ fn of_short_loop(
         balls(closed, &near).ok_or("a solution of the longer loop is too ill conditioned for a ball of its own")?;
     let (own, points) = proof_of_points(closure, &near, &all)
         .ok_or("the solutions are no points with coordinates of few digits over one polynomial")?;
-    // Where the loop has no solution, one of the longer loop shows that the data are these.
-    let shown = || if own.is_empty() { all.first().cloned().map(|ball| vec![ball]) } else { Some(own.clone()) };
-    let by_own = || Some((shown()?, proof_of_own(closure, &own)?));
+    // One solution of the longer loop alone shows that the data are these: those of the loop may be solutions of others, too, as the home
+    // position of an arm by screws is, wherever the axes are.
+    let is_of_longer = |ball: &&Ball| !own.iter().any(|own| own.centre == ball.centre);
+    let shown = || -> Vec<Ball> { own.iter().chain(all.iter().find(is_of_longer)).cloned().collect() };
+    let by_own = || proof_of_own(closure, &own).map(|bound| (shown(), bound)).filter(|(shown, _)| !shown.is_empty());
     let (balls, bound) = by_own()
         .or_else(|| proof_of(closed, &all).map(|bound| (all, bound)))
         .ok_or("no bound of docs/certificate.md is met by the loop, or by the longer one")?;
