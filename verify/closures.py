@@ -8,8 +8,7 @@ from quantities import decimal, fields, items, require, whole
 
 TURN, SLIDE = "turn", "slide"
 THREE_JOINTS = {0: 4, 1: 4, 2: 2, 3: 1}  # the ways in which they bring a point to its place, by their number of translations
-MOST_RADIUS = fmpq(1, 1000)
-Mode = namedtuple("Mode", "centre radius is_real")
+Mode = namedtuple("Mode", "centre radius is_real multiplicity")
 
 
 class Chain:
@@ -102,21 +101,21 @@ def are_apart(kinds, one, other, radius):
     return any(size.abs_lower() > fmpq(1001, 1000) * radius for size in sizes)
 
 
-def proved_modes(system, values):
-    """The modes, of which each ball holds one solution, real or not as it says, and all differ."""
+def proved_modes(system, values, is_double=lambda centre, radius: False):
+    """The modes, of which each ball holds one solution, real or not as it says, and all differ. Double ones are proved elsewhere."""
     require(system.size == system.equations, "closure: only loops of at most six unknowns are covered")
     modes = []
     for at, value in enumerate(items(values), 1):
         centre, size, is_real, multiplicity = fields(value, ("centre", "radius", "real", "multiplicity"))
         parts = [(part, "0") if isinstance(part, str) else items(part, 2) for part in items(centre, system.size)]
         point, radius = [acb(decimal(re), decimal(im)) for re, im in parts], arb(decimal(size))
-        require(whole(multiplicity) == 1, f"mode {at}: a ball of an isolated simple solution counts once")
-        require(0 < decimal(size) <= MOST_RADIUS, f"mode {at}: the radius is not above 0 and at most 1/1000")
+        require(0 < decimal(size) <= fmpq(1, 1000), f"mode {at}: the radius is not above 0 and at most 1/1000")
         is_as_said = is_real is all(x.imag == 0 for x in point) and (is_real or any(abs(x.imag) > radius for x in point))
         require(is_as_said, f"mode {at}: its ball does not show that it is real or not real as it says")
-        require(holds_one(system, point, radius), f"mode {at}: no solution is proved within the radius")
-        for k, mode in enumerate(modes, 1):
-            differ = all(are_apart(system.kinds, point, form, radius + mode.radius) for form in system.forms(mode.centre))
+        is_proved = holds_one(system, point, radius) if whole(multiplicity) == 1 else multiplicity == 2 and is_double(point, radius)
+        require(is_proved, f"mode {at}: no solution of this multiplicity is proved within the radius")
+        for k, other in enumerate(modes, 1):
+            differ = all(are_apart(system.kinds, point, form, radius + other.radius) for form in system.forms(other.centre))
             require(differ, f"modes {k} and {at}: they may be the same solution")
-        modes.append(Mode(point, radius, is_real))
+        modes.append(Mode(point, radius, is_real, multiplicity))
     return modes

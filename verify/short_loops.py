@@ -32,7 +32,7 @@ def own_modes(system, modes, item, *others):
     points, is_own_bound = [Points(system, other) for other in others], item["kind"] == "own-eliminant"
     added = [TURN] * (6 - system.size)
     if is_own_bound and points:
-        own = [mode for mode in modes if is_one_in(points[0], system, mode)]
+        own = [mode for mode in modes if is_one_in(points[0], system, mode.centre, mode.radius)]
     else:  # the added rotations may be 0
         own = [mode for mode in modes if not are_apart(added, mode.centre[system.size:], [0] * len(added), mode.radius)]
     count = points[0].modulus.degree() if points else 0
@@ -41,9 +41,9 @@ def own_modes(system, modes, item, *others):
     return own
 
 
-def is_one_in(points, system, mode):
+def is_one_in(points, system, centre, radius):
     """Whether a ball holds one of the points, with all further unknowns at 0."""
-    (centre, radius, _), before = mode, ctx.prec
+    before = ctx.prec
     ctx.prec = PRECISION
     try:
         here = system.parts(centre)

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 """Checks certificates of looproot: docs/certificate.md has the format and the theorems.
-
 Exit code 0: every item holds; 2: one does not, which is named; 1: the certificate cannot be read."""
 import argparse
 import functools
@@ -15,6 +14,7 @@ from conditions import four_joints
 from curve import curve
 from distance import distance
 from documents import object_at
+from double import with_doubles
 from files import is_about
 from geometry import geometry
 from kernel import kernel
@@ -50,11 +50,13 @@ def solved(system, data, claim, modes, item, *others):
     kind = item["kind"]
     if kind == "curve" and not others:
         return {"status": "self-motion", "self_motion": curve(system, data, item, modes)}
-    all_ones = LISTS[kind](system, modes, item) if kind in LISTS else all_modes(lengthened(system), modes, BOUNDS[kind], item)
-    found = own_modes(system, all_ones, item, *others)
-    real = sum(mode.is_real for mode in found)
-    numbers = {"real": real} if kind in ("distance", "real-zeros") else {"real": real, "complex": len(found)}
-    return {"status": "complete" if real else "unreachable", **numbers}
+    if [other["kind"] for other in others] == ["double"]:
+        found = with_doubles(system, modes, BOUNDS.get(kind), item, *others)
+    else:
+        all_ones = LISTS[kind](system, modes, item) if kind in LISTS else all_modes(lengthened(system), modes, BOUNDS[kind], item)
+        found = own_modes(system, all_ones, item, *others)
+    real, total = sum(mode.multiplicity for mode in found if mode.is_real), sum(mode.multiplicity for mode in found)
+    return {"status": "complete" if real else "unreachable", "real": real, **({} if kind in ("distance", "real-zeros") else {"complex": total})}
 
 
 def all_modes(system, values, bound, item):
@@ -86,8 +88,7 @@ def immobile(system, data, item, modes):
 def regular(system, data, item, modes):
     """Theorem 7: with one unknown of seven held a real solution is simple."""
     held = system_of({**data, "input": [fields(item, ("kind", "held"))[1]]})
-    is_shown = held.size == 6 and proved_modes(held, items(modes, 1))[0].is_real
-    require(is_shown, "mode 1: a real configuration of a loop of seven unknowns is asked for")
+    require(held.size == 6 and proved_modes(held, items(modes, 1))[0].is_real, "mode 1: a real configuration of seven unknowns is asked for")
     return 1
 
 

@@ -55,12 +55,20 @@ pub(super) fn bound(closed: &Closed, proof: &[Value], balls: &[Ball]) -> Result<
 /// Returns a proof that there are no solutions outside the balls; `None` if no kind of proof gives this bound.
 #[must_use]
 pub fn proof_of(closed: &Closed, balls: &[Ball]) -> Option<Value> {
-    let value = balls.len();
+    proof_of_all(closed, balls, 0)
+}
+
+/// As [`proof_of`], where so many of the balls hold double solutions.
+#[must_use]
+pub fn proof_of_all(closed: &Closed, balls: &[Ball], doubles: usize) -> Option<Value> {
+    let counted = balls.len() + doubles;
     for (kind, known) in [("general-bound", general(closed)), ("geometry-bound", geometry(closed))] {
-        if known == Some(value) {
-            return Some(json!({ "kind": kind, "value": value }));
+        if known == Some(counted) {
+            return Some(json!({ "kind": kind, "value": counted }));
         }
     }
+    // Theorem 4 counts different solutions.
+    let value = balls.len();
     let Closed::Chain(closure) = closed else { return None };
     let mut choices = choices();
     let meets = |choice: &Choice| solutions_by_eliminant(closure, choice, balls) == Ok(value);

@@ -5,13 +5,14 @@ use super::bound::{OF_OWN, bound};
 use super::chain::ChainClosure;
 use super::data::{data_of, data_of_loop, entry_of};
 use super::distance;
+use super::double_points::{self, double_solutions};
 use super::families::check_families;
 use super::fault::{Fault, refused, shortened, unreadable};
 use super::four_bars;
-use super::isolation::{Closed, proved_modes};
+use super::isolation::{Closed, proved_among, proved_modes};
 use super::kernel;
 use super::linkage::{LinkageClosure, data_of_linkage};
-use super::mode::Ball;
+use super::mode::{Ball, Unproved};
 use super::moving::{CURVE, follows_a_curve, mobility};
 use super::platform::PlatformClosure;
 use super::polynomial;
@@ -141,14 +142,15 @@ pub fn check(certificate: &Value, file: Option<&Any>) -> Result<Holds, Fault> {
         |kind: &str| record.proof.get(1).is_some_and(|item| item.get("kind").and_then(Value::as_str) == Some(kind));
     let is_whole = match (&record.claim.polynomial, record.proof.len()) {
         (Some(_), 2) => own == 6 && second(polynomial::KIND),
-        (None, 2) => own < 6 && second(algebraic::KIND),
+        (None, 2) if own == 6 => second(double_points::KIND),
+        (None, 2) => second(algebraic::KIND),
         (None, 1) => true,
         _ => false,
     };
     if !is_whole {
         let items = record.proof.len();
         return refused(format!(
-            "proof: found {items} items, expected one, and a second one for polynomials and loops of fewer than six unknowns"
+            "proof: found {items} items, expected one, and a second one for polynomials, double solutions and loops of fewer than six unknowns"
         ));
     }
     let (proof, second) = (&record.proof[..1], record.proof.get(1));
@@ -158,6 +160,9 @@ pub fn check(certificate: &Value, file: Option<&Any>) -> Result<Holds, Fault> {
     }
     if own == 6 && kind == OF_OWN {
         return refused("proof: own-eliminant: the loop has six unknowns");
+    }
+    if let (6, None, Some(item)) = (own, &record.claim.polynomial, second) {
+        return with_double_solutions(&closed, &record.claim, record.modes, &proof[0], item);
     }
     if record.claim.polynomial.is_some() && [distance::KIND, real_zeros::KIND].contains(&kind) {
         return refused("proof: the roots of a polynomial are proved by all solutions");
@@ -199,6 +204,47 @@ pub fn check(certificate: &Value, file: Option<&Any>) -> Result<Holds, Fault> {
         polynomial::check_polynomial(closure, &balls, claim, item)?;
         return Ok(Holds::Polynomial { complex, real });
     }
+    Ok(Holds::Solutions { complex, real })
+}
+
+/// Checks a certificate with double solutions: theorem 15.
+fn with_double_solutions(
+    closed: &Closed,
+    claim: &Claim,
+    modes: Vec<Unproved>,
+    item: &Value,
+    double: &Value,
+) -> Result<Holds, Fault> {
+    let kind = item.get("kind").and_then(Value::as_str).unwrap_or_default();
+    let Closed::Chain(closure) = closed else { return refused("proof: double: only loops are covered") };
+    if [distance::KIND, real_zeros::KIND].contains(&kind) {
+        return refused("proof: double: only bounds of loops of six unknowns are covered");
+    }
+    let points = double_solutions(closure, double)?;
+    let is_double: Vec<bool> = modes.iter().map(|mode| mode.multiplicity == 2).collect();
+    let balls: Vec<Ball> = modes.iter().map(|mode| mode.ball.clone()).collect();
+    for (index, mode) in modes.iter().enumerate() {
+        if mode.multiplicity != 1 && !(is_double[index] && points.is_one_in(closure, &mode.ball)) {
+            return refused(format!("mode {}: a simple solution counts once, and no double one is proved here", index + 1));
+        }
+    }
+    proved_among(&**closure, &balls, &|index| is_double[index])?;
+    let doubles = is_double.iter().filter(|is_double| **is_double).count();
+    if doubles != points.count() {
+        return refused(format!("proof: double: {doubles} modes are double, and {} points", points.count()));
+    }
+    let bound = bound(closed, std::slice::from_ref(item), &balls)?;
+    // Theorem 4 counts different solutions.
+    let total = balls.len() + if kind == "eliminant" { 0 } else { doubles };
+    if total != bound {
+        return refused(format!("proof: at most {bound} solutions, and {total} are proved"));
+    }
+    let complex = modes.iter().map(|mode| mode.multiplicity).sum();
+    let real = modes.iter().filter(|mode| mode.ball.real).map(|mode| mode.multiplicity).sum();
+    if claim.complex != Some(complex) || claim.real != Some(real) {
+        return refused(format!("claim: other numbers than {complex} solutions, {real} of them real, are proved"));
+    }
+    check_status(claim, real)?;
     Ok(Holds::Solutions { complex, real })
 }
 

@@ -96,6 +96,15 @@ pub enum Closed {
 
 /// As [`proved_modes`].
 pub(super) fn all<const N: usize>(closure: &impl Closure<N>, balls: &[Ball]) -> Result<(), Fault> {
+    proved_among(closure, balls, &|_| false)
+}
+
+/// As [`proved_modes`], where some of the balls are known to hold a solution.
+pub(super) fn proved_among<const N: usize>(
+    closure: &impl Closure<N>,
+    balls: &[Ball],
+    is_known: &dyn Fn(usize) -> bool,
+) -> Result<(), Fault> {
     let (ready, angles) = (Ready::of(closure), closure.angles());
     for (index, ball) in balls.iter().enumerate() {
         let at = index + 1;
@@ -106,7 +115,8 @@ pub(super) fn all<const N: usize>(closure: &impl Closure<N>, balls: &[Ball]) -> 
             return refused(format!("mode {at}: the radius is not above 0 and at most 1/1000"));
         }
         let middle = Middle::of(ball, &angles);
-        let is_proved = Digits::ALL.into_iter().any(|digits| ready.holds_one(ball, &middle, digits));
+        let by = |digits| ready.holds_one(ball, &middle, digits);
+        let is_proved = is_known(index) || Digits::ALL.into_iter().any(by);
         if !is_proved {
             return refused(format!("mode {at}: no solution is proved within the radius"));
         }

@@ -123,11 +123,20 @@ fn refined<const N: usize>(
             break;
         }
     }
-    for (k, (re, im)) in x.iter_mut().enumerate() {
-        if angles[k] {
+    short_centre(closure, x, real)
+}
+
+/// Returns a point with thirty decimals, angles between -pi and pi.
+pub(super) fn short_centre<const N: usize>(
+    closure: &impl Closure<N>,
+    mut x: Vec<(Rational, Rational)>,
+    real: bool,
+) -> Option<Vec<(Rational, Rational)>> {
+    for ((re, im), is_angle) in x.iter_mut().zip(closure.angles()) {
+        if is_angle {
             *re = within_a_turn(re)?;
         }
-        (*re, *im) = (rounded(re, DECIMALS), rounded(im, DECIMALS));
+        (*re, *im) = (rounded(re, DECIMALS), if real { Rational::new() } else { rounded(im, DECIMALS) });
     }
     Some(x)
 }

@@ -8,7 +8,7 @@ use crate::catalogue::{LinkageCase, LinkageFile, SphereFile};
 use crate::certificate::{
     Ball, ChainClosure, Closed, FAMILIES, FORMAT, Fault, LinkageClosure, Listed, Near, VERSION, balls,
     balls_of_linkage, check, claim_of_families, closed, data_of, data_of_linkage, data_of_loop,
-    data_of_turning_linkage, data_of_turning_loop, data_of_turning_sphere, proof_by_distance, proof_of,
+    data_of_turning_linkage, data_of_turning_loop, data_of_turning_sphere, proof_by_distance, proof_of, proof_of_all, proof_of_doubles,
     proof_of_kernel, proof_of_motion, proof_of_own, proof_of_points, proof_of_polynomial, proof_of_real_list,
     proof_of_rest, proof_of_self_motion, proof_of_sweep, proved_modes,
 };
@@ -60,6 +60,12 @@ pub fn certificate(entry: &Entry, number: usize, case: &Case, solution: &Solutio
     if let Some(closure) = short {
         let (claim, balls, proof) = of_short_loop(closure, &closed, solution)?;
         return accepted(&info, &data, &claim, &balls, &proof);
+    }
+    if let Closed::Chain(closure) = &closed
+        && solution.modes.iter().any(|mode| !mode.near && mode.multiplicity == 2)
+        && let Some((claim, modes, proof)) = with_doubles(closure, &closed, solution)
+    {
+        return accepted_modes(&info, &data, &claim, &modes, &proof);
     }
     let (claim, balls, proof) = counted(&closed, solution).or_else(|reason| {
         let none = || not_real(entry, case, &closed, solution);
@@ -147,6 +153,28 @@ fn counted(closed: &Closed, solution: &Solution) -> Result<(Value, Vec<Ball>, Va
         .ok_or("no bound of docs/certificate.md is met: the code is ".to_owned() + verdict.code.word())?;
     let (complex, real) = (balls.len(), balls.iter().filter(|ball| ball.real).count());
     Ok((solved(complex, real), balls, proof))
+}
+
+/// Returns the claim, the modes and the proof of an answer with double solutions; `None` where theorem 15 does not cover it.
+fn with_doubles(closure: &ChainClosure, closed: &Closed, solution: &Solution) -> Option<(Value, Vec<Value>, Vec<Value>)> {
+    let listed = || solution.modes.iter().filter(|mode| !mode.near);
+    let of = |multiplicity: usize| -> Vec<Near> {
+        let own = listed().filter(|mode| mode.multiplicity == multiplicity);
+        own.map(|mode| (closure.unknowns(&mode.q), mode.real)).collect()
+    };
+    let (simple, double) = (of(1), of(2));
+    let is_all = simple.len() + double.len() == listed().count();
+    let counted = simple.len() + 2 * double.len();
+    if !is_all || !solution.verdict.complex_complete || counted != solution.verdict.complex {
+        return None;
+    }
+    let simple = balls(closed, &simple)?;
+    let (double, item) = proof_of_doubles(closure, &double)?;
+    let all: Vec<Ball> = simple.iter().chain(&double).cloned().collect();
+    let bound = proof_of_all(closed, &all, double.len())?;
+    let modes = simple.iter().map(|ball| mode(ball, 1)).chain(double.iter().map(|ball| mode(ball, 2))).collect();
+    let real = |balls: &[Ball]| balls.iter().filter(|ball| ball.real).count();
+    Some((solved(counted, real(&simple) + 2 * real(&double)), modes, vec![bound, item]))
 }
 
 /// Returns the claim of an answer to a loop of fewer than six unknowns, balls around all solutions of the longer loop, and the proof.
@@ -412,13 +440,25 @@ pub fn certificate_of_conditions(theorem: &FourBar) -> Result<Value, String> {
 
 /// Returns the certificate of these parts, once the checker has accepted it.
 fn accepted(info: &Value, data: &Value, claim: &Value, balls: &[Ball], proof: &[Value]) -> Result<Value, String> {
+    let modes: Vec<Value> = balls.iter().map(|ball| mode(ball, 1)).collect();
+    accepted_modes(info, data, claim, &modes, proof)
+}
+
+/// As [`accepted`], of modes that may be double.
+fn accepted_modes(
+    info: &Value,
+    data: &Value,
+    claim: &Value,
+    modes: &[Value],
+    proof: &[Value],
+) -> Result<Value, String> {
     let certificate = json!({
         "format": FORMAT,
         "version": VERSION,
         "info": info,
         "data": data,
         "claim": claim,
-        "modes": balls.iter().map(mode).collect::<Vec<_>>(),
+        "modes": modes,
         "proof": proof,
     });
     check(&certificate, None).map_err(|fault| words(&fault))?;
@@ -442,12 +482,12 @@ fn unknowns(closed: &Closed, mode: &FullMode) -> Vec<Complex<f64>> {
     }
 }
 
-fn mode(ball: &Ball) -> Value {
+fn mode(ball: &Ball, multiplicity: usize) -> Value {
     let part = |(re, im): &(Rational, Rational)| {
         if ball.real { json!(decimal(re)) } else { json!([decimal(re), decimal(im)]) }
     };
     let centre: Vec<Value> = ball.centre.iter().map(part).collect();
-    json!({ "centre": centre, "radius": decimal(&ball.radius), "real": ball.real, "multiplicity": 1 })
+    json!({ "centre": centre, "radius": decimal(&ball.radius), "real": ball.real, "multiplicity": multiplicity })
 }
 
 /// A number of at most thirty decimals as such.

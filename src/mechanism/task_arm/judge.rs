@@ -22,6 +22,9 @@ const CONDITION: f64 = 1e-3;
 /// Choices of conditions without a real solution after which no more are tried: at a pose that is reached others have one, and each takes
 /// up to a tenth of a second.
 const EMPTY: usize = 3;
+/// Solutions of the conditions that miss the pose by fewer tolerances than this may have a configuration beside them that is within it: the
+/// conditions are met exactly, and what is left takes all of the rounding of the pose.
+const BESIDE: f64 = 100.0;
 /// Rounding of a miss that was measured in f64, in parts of the reach.
 const ROUNDING: f64 = 1e-13;
 
@@ -123,8 +126,9 @@ impl TaskArm {
         let exact = listed.iter().filter(|mode| !mode.near).count();
         let with_multiplicity = listed.iter().filter(|mode| !mode.near).map(|mode| mode.multiplicity.max(1)).sum();
         let listed_none = listed.is_empty();
+        let is_beside = |other: &Found| other.mode.real && tolerance.parts(&other.miss) < BESIDE;
         let mut closest: Option<(Vec<f64>, PoseError)> = None;
-        for other in others.iter().filter(|other| listed_none || is_nearly_real(&other.mode)) {
+        for other in others.iter().filter(|other| listed_none || is_nearly_real(&other.mode) || is_beside(other)) {
             let Some((q, miss)) = self.nearest(other, pose, tolerance) else { continue };
             if tolerance.allows(&miss) {
                 if listed.iter().all(|mode| self.are_apart(mode, &q)) {
