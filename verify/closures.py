@@ -8,6 +8,7 @@ from quantities import decimal, fields, items, require, whole
 
 TURN, SLIDE = "turn", "slide"
 THREE_JOINTS = {0: 4, 1: 4, 2: 2, 3: 1}  # the ways in which they bring a point to its place, by their number of translations
+MOST_RADIUS = fmpq(1, 1000)
 Mode = namedtuple("Mode", "centre radius is_real multiplicity")
 
 
@@ -56,8 +57,7 @@ def six(m):
 
 class Platform:
     """|x|^2 = 1 and |p + R b - a|^2 = l^2 for the six legs; x is the quaternion of R, and the unknowns are x and p."""
-    equations = size = 7
-    kinds, spherical = [SLIDE] * 7, []
+    equations, size, kinds, spherical = 7, 7, [SLIDE] * 7, []
 
     def __init__(self, base, plate, squares):
         self.base, self.plate, self.squares = base, plate, squares
@@ -109,7 +109,7 @@ def proved_modes(system, values, is_double=lambda centre, radius: False):
         centre, size, is_real, multiplicity = fields(value, ("centre", "radius", "real", "multiplicity"))
         parts = [(part, "0") if isinstance(part, str) else items(part, 2) for part in items(centre, system.size)]
         point, radius = [acb(decimal(re), decimal(im)) for re, im in parts], arb(decimal(size))
-        require(0 < decimal(size) <= fmpq(1, 1000), f"mode {at}: the radius is not above 0 and at most 1/1000")
+        require(0 < decimal(size) <= MOST_RADIUS, f"mode {at}: the radius is not above 0 and at most 1/1000")
         is_as_said = is_real is all(x.imag == 0 for x in point) and (is_real or any(abs(x.imag) > radius for x in point))
         require(is_as_said, f"mode {at}: its ball does not show that it is real or not real as it says")
         is_proved = holds_one(system, point, radius) if whole(multiplicity) == 1 else multiplicity == 2 and is_double(point, radius)

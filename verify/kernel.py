@@ -90,7 +90,7 @@ def are_independent(system, modes, chosen):
     inner = [own for own in chosen if all((*own[:k], own[k] + 1, *own[k + 1:]) in among for k in range(system.size))]
     require(inner, "proof: kernel: no monomial may be multiplied by every unknown")
     table = []
-    for centre, radius, _ in modes:
+    for centre, radius, *_ in modes:
         x = [z + acb(arb(0, radius), arb(0, radius)) for z in centre]
         table.append([value(own, x, system.classes - 1) for own in inner])
     for at in range(len(table)):
