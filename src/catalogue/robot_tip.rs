@@ -46,9 +46,16 @@ fn rank(link: &str) -> Option<usize> {
 
 /// Returns the tip of the only arm of a robot.
 pub(super) fn tip_of<'a>(scope: &Scope<'_>, tree: &'a Tree, base: Option<&str>) -> Result<Tip<'a>> {
-    let all = arms(tree, base);
-    let wanted: Vec<&Arm<'a>> =
-        all.iter().filter(|(joints, _)| JOINTS.contains(&joints.len())).map(|(_, arm)| arm).collect();
+    let is_long_enough = |(joints, _): &(&Vec<usize>, &Arm<'_>)| JOINTS.contains(&joints.len());
+    // A joint that others follow is a finger as a rule, and in some arms one that a rod moves.
+    let mut all = arms(tree, base, false);
+    if !all.iter().any(|arm| is_long_enough(&arm)) {
+        let with_followed = arms(tree, base, true);
+        if with_followed.iter().any(|arm| is_long_enough(&arm)) {
+            all = with_followed;
+        }
+    }
+    let wanted: Vec<&Arm<'a>> = all.iter().filter(is_long_enough).map(|(_, arm)| arm).collect();
     // A chain of another length is taken if it is the only one; its solver reports the outcome.
     let arms: Vec<&Arm<'a>> = if wanted.is_empty() { all.values().collect() } else { wanted };
     let best = arms.iter().filter_map(|arm| Some((arm.named()?, *arm))).min_by_key(|((rank, _), _)| *rank);
@@ -70,10 +77,33 @@ pub(super) fn tip_of<'a>(scope: &Scope<'_>, tree: &'a Tree, base: Option<&str>) 
         return Ok(Tip { link, remark: format!("the tip is link `{link}`, {why}; --tip-link names another one") });
     }
     let leaves = tree.leaves();
-    let of_arms = arms.iter().flat_map(|arm| arm.leaves.iter()).next();
-    let example = of_arms.or(leaves.first()).copied().unwrap_or("LINK");
+    let of_arms = arms.iter().flat_map(|arm| arm.leaves.iter()).next().copied();
+    let common = parting(tree, base, all.keys().filter(|joints| JOINTS.contains(&joints.len())));
+    let example = common.or(of_arms).or(leaves.first().copied()).unwrap_or("LINK");
     let message = format!("found {} end links ({})", leaves.len(), leaves.join(", "));
     Err(scope.fail(tree.line, format!("{message}, expected a tip link to be named: --tip-link {example}")))
+}
+
+/// Returns the last link before chains part, if it ends an arm itself, as where two fingers begin; `None` if there are fewer than two chains.
+fn parting<'a, 'b>(
+    tree: &'a Tree,
+    base: Option<&str>,
+    mut chains: impl Iterator<Item = &'b Vec<usize>>,
+) -> Option<&'a str> {
+    let (mut common, mut count) = (chains.next()?.clone(), 1);
+    for chain in chains {
+        let shared = common.iter().zip(chain).take_while(|(one, other)| one == other).count();
+        common.truncate(shared);
+        count += 1;
+    }
+    if count < 2 || !JOINTS.contains(&common.len()) {
+        return None;
+    }
+    let moving = |link: &str| {
+        let path = tree.path(base, link, LONGEST)?;
+        Some(path.into_iter().filter(|joint| !tree.joints[*joint].is_fixed).collect::<Vec<_>>())
+    };
+    tree.links.iter().map(String::as_str).rfind(|link| moving(link).as_ref() == Some(&common))
 }
 
 /// Returns the link of an arm farthest from the root; `None` if there are several.
@@ -85,10 +115,10 @@ fn outermost<'a>(tree: &Tree, arm: &Arm<'a>) -> Option<&'a str> {
     all.next().is_none().then_some(*first)
 }
 
-/// Groups the links below the base by the moving joints that move them, without mimic joints, those they mimic and immobile links.
-fn arms<'a>(tree: &'a Tree, base: Option<&str>) -> BTreeMap<Vec<usize>, Arm<'a>> {
+/// Groups the links below the base by the moving joints that move them, without mimic joints and immobile links, and with those joints that
+/// others follow only if these are asked for.
+fn arms<'a>(tree: &'a Tree, base: Option<&str>, with_followed: bool) -> BTreeMap<Vec<usize>, Arm<'a>> {
     let leaves = tree.leaves();
-    // The joint that others follow is a finger, too.
     let followed: HashSet<&str> = tree.joints.iter().filter_map(|joint| joint.follows.as_deref()).collect();
     let mut arms: BTreeMap<Vec<usize>, Arm<'a>> = BTreeMap::new();
     for link in tree.links.iter().map(String::as_str) {
@@ -96,7 +126,8 @@ fn arms<'a>(tree: &'a Tree, base: Option<&str>) -> BTreeMap<Vec<usize>, Arm<'a>>
         let moving: Vec<usize> = path.into_iter().filter(|joint| !tree.joints[*joint].is_fixed).collect();
         let is_gripper = |joint: &usize| {
             let joint = &tree.joints[*joint];
-            joint.follows.is_some() || joint.name.as_deref().is_some_and(|name| followed.contains(name))
+            let is_followed = || joint.name.as_deref().is_some_and(|name| followed.contains(name));
+            joint.follows.is_some() || !with_followed && is_followed()
         };
         if moving.is_empty() || moving.iter().any(is_gripper) {
             continue;

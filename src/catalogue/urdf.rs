@@ -44,8 +44,7 @@ fn tree<'a, 'i>(scope: &Scope<'_>, robot: Element<'a, 'i>) -> Result<(Tree, Vec<
     if elements.len().max(all_links.len()) > LARGEST {
         return Err(scope.fail(line(robot), format!("found more than {LARGEST} joints or links, expected a robot")));
     }
-    let is_macro = |element: Element<'_, '_>| element.tag_name().namespace().is_some_and(|n| n.contains("xacro"));
-    if let Some(found) = robot.descendants().find(|element| is_macro(*element)) {
+    if let Some(found) = macro_of(robot) {
         return Err(scope.fail(line(found), macro_found(scope)));
     }
     if all_links.is_empty() {
@@ -69,6 +68,23 @@ fn tree<'a, 'i>(scope: &Scope<'_>, robot: Element<'a, 'i>) -> Result<(Tree, Vec<
     };
     let joints = elements.iter().map(joint).collect::<Result<_>>()?;
     Ok((Tree::new(scope, line(robot), links, joints)?, elements))
+}
+
+/// Returns an element that `xacro` has to expand: one that may stand for links and joints, or an expression in one of these. Properties without
+/// a use, and what stands below materials and simulators, are left over in many expanded files.
+fn macro_of<'a, 'i>(robot: Element<'a, 'i>) -> Option<Element<'a, 'i>> {
+    let is_macro =
+        |element: &Element<'_, '_>| element.tag_name().namespace().is_some_and(|name| name.contains("xacro"));
+    let is_definition = |element: &Element<'_, '_>| ["property", "arg"].contains(&element.tag_name().name());
+    let is_expression = |text: &str| text.contains("${") || text.contains("$(");
+    let stands_for_more = |element: &Element<'_, '_>| {
+        let has_expression = || element.attributes().any(|attribute| is_expression(attribute.value()));
+        is_macro(element) || has_expression()
+    };
+    let calls = robot.children().filter(|part| is_macro(part) && !is_definition(part));
+    let links = robot.children().filter(|part| part.has_tag_name("link") && stands_for_more(part));
+    let joints = robot.children().filter(|part| part.has_tag_name("joint"));
+    calls.chain(links).chain(joints.flat_map(|joint| joint.descendants()).filter(stands_for_more)).next()
 }
 
 /// Refuses two parts with the same name.
@@ -100,10 +116,14 @@ fn kind(scope: &Scope<'_>, joint: Element<'_, '_>) -> Result<Option<JointKind>> 
         Some("fixed") => return Ok(None),
         Some("revolute" | "continuous") => JointKind::Revolute,
         Some("prismatic") => JointKind::Prismatic,
-        other => {
-            let found = other.unwrap_or("nothing");
-            let message = format!("joint type `{found}`; revolute, continuous, prismatic and fixed are read");
+        Some(other @ ("floating" | "planar")) => {
+            let message = format!("joint type `{other}`; revolute, continuous, prismatic and fixed are read");
             return Err(Error::Unsupported(message).at(scope.path, line(joint)));
+        }
+        other => {
+            let found = other.map_or("no type of a joint".to_owned(), |other| format!("joint type `{other}`"));
+            let expected = "expected revolute, continuous, prismatic or fixed";
+            return Err(scope.fail(line(joint), format!("found {found}, {expected}")));
         }
     };
     if let Some(mimic) = child(joint, "mimic") {
@@ -131,7 +151,7 @@ pub(super) fn parse<'a>(scope: &Scope<'_>, text: &'a str) -> Result<Document<'a>
     Document::parse_with_options(text, options).map_err(|fault| {
         let row = fault.pos().row as usize;
         // A macro file may leave its prefix undeclared.
-        if text.contains("<xacro:") {
+        if matches!(&fault, roxmltree::Error::UnknownNamespace(prefix, _) if prefix == "xacro") {
             return scope.fail(row, macro_found(scope));
         }
         scope.fail(row, format!("found text that is not XML: {fault}"))

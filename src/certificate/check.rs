@@ -225,7 +225,10 @@ fn with_double_solutions(
     let balls: Vec<Ball> = modes.iter().map(|mode| mode.ball.clone()).collect();
     for (index, mode) in modes.iter().enumerate() {
         if mode.multiplicity != 1 && !(is_double[index] && points.is_one_in(closure, &mode.ball)) {
-            return refused(format!("mode {}: a simple solution counts once, and no double one is proved here", index + 1));
+            return refused(format!(
+                "mode {}: a simple solution counts once, and no double one is proved here",
+                index + 1
+            ));
         }
     }
     proved_among(&**closure, &balls, &|index| is_double[index])?;

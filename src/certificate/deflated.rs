@@ -60,7 +60,8 @@ pub(super) fn double_solution(closure: &ChainClosure, near: &[Complex<f64>]) -> 
     for value in &mut kernel {
         *value = value.over(&scale)?.midpoint();
     }
-    let (tiny, huge) = (Float::with_val(BITS, Float::i_exp(1, -(STEP as i32))), Float::with_val(BITS, Float::i_exp(1, STEP as i32)));
+    let (tiny, huge) =
+        (Float::with_val(BITS, Float::i_exp(1, -(STEP as i32))), Float::with_val(BITS, Float::i_exp(1, STEP as i32)));
     let (tiny, huge) = (Far::point(&tiny, &Float::new(2)), Far::point(&huge, &Float::new(2)));
     let mut rest = Far::zero();
     for _ in 0..STEPS {
@@ -82,7 +83,9 @@ pub(super) fn double_solution(closure: &ChainClosure, near: &[Complex<f64>]) -> 
         right[border] = right[border].sub(&rest);
         matrix[12][6 + at] = Far::one();
         let inverse = near_inverse(&matrix)?;
-        let step = inverse.each_ref().map(|row| row.iter().zip(&right).fold(Far::zero(), |sum, (c, r)| sum.add(&c.mul(r))).midpoint());
+        let step = inverse
+            .each_ref()
+            .map(|row| row.iter().zip(&right).fold(Far::zero(), |sum, (c, r)| sum.add(&c.mul(r))).midpoint());
         x = moved(&x, &std::array::from_fn(|k| step[k].clone()))?;
         kernel = std::array::from_fn(|k| kernel[k].add(&step[6 + k]).midpoint());
         rest = rest.add(&step[12]).midpoint();

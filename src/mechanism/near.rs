@@ -108,7 +108,7 @@ const TRIALS: usize = 8;
 /// Starts of the search of an arm of dependent joints, whose self-motions rounding dissolves without a trace: as many as of a search
 /// that no pencil leads.
 const STARTS: usize = 40;
-/// The error of a self-motion is measured at this number of points.
+/// A self-motion is near if it is at this number of points: rounding adds up along the others.
 const LOOKED_AT: usize = 24;
 
 impl Neighbourhood<'_> {
@@ -394,11 +394,9 @@ impl Neighbourhood<'_> {
     /// The largest error of the pose along a self-motion; `None` where it is too large.
     fn distance(&self, family: &SelfMotion) -> Option<f64> {
         let stride = family.points.len().div_ceil(LOOKED_AT);
-        let errors: Vec<PoseError> = family.points.iter().step_by(stride).map(|q| self.error(q)).collect();
-        errors
-            .iter()
-            .all(|error| self.tolerance.allows(error))
-            .then(|| errors.iter().map(PoseError::largest).fold(0.0, f64::max))
+        let errors: Vec<PoseError> = family.points.iter().map(|q| self.error(q)).collect();
+        let is_near = errors.iter().step_by(stride).all(|error| self.tolerance.allows(error));
+        is_near.then(|| errors.iter().map(PoseError::largest).fold(0.0, f64::max))
     }
 
     /// Takes in a configuration that is near and no solution again.

@@ -18,6 +18,8 @@ const RANK: f64 = 1e-10;
 /// undamped one leads far away. The last one is short where the pose is far.
 const DAMPED: [f64; 5] = [1e-4, 1e-3, 1e-2, 1e-1, 1.0];
 
+/// Configurations whose joints all agree so far, in radians or metres, are listed once.
+const SAME: f64 = 1e-3;
 /// Starts of the search all over the joints: more than a general arm has solutions, and some milliseconds.
 const STARTS: u32 = 24;
 /// Half the range of the translations of the starts, in reaches of the arm.
@@ -32,23 +34,33 @@ pub(super) fn nearest_of_all(
     wanted: &Motion<f64>,
 ) -> Option<(Vec<f64>, PoseError)> {
     let even = Tolerance { length: 1.0, angle: 1.0 };
+    let found = starts(forward, start, moving).map(|from| nearest(forward, &from, moving, wanted, even));
+    let size = |miss: &PoseError| miss.position.hypot(miss.orientation);
+    let (mut q, miss) = found.min_by(|(_, one), (_, other)| size(one).total_cmp(&size(other)))?;
+    within_a_turn(forward, &mut q);
+    Some((q, miss))
+}
+
+/// Returns the starts of the search all over the joints.
+fn starts(forward: &Forward, start: &[f64], moving: &[usize]) -> impl Iterator<Item = Vec<f64>> {
     let travel = TRAVEL * forward.reach();
-    let found = (0..STARTS).map(|trial| {
+    (0..STARTS).map(move |trial| {
         let mut from = start.to_vec();
         for (place, joint) in (0..).zip(moving) {
             let half = if forward.variables()[*joint] == Variable::Rotation { PI } else { travel };
             from[*joint] = half * scattered(trial, place);
         }
-        nearest(forward, &from, moving, wanted, even)
-    });
-    let size = |miss: &PoseError| miss.position.hypot(miss.orientation);
-    let (mut q, miss) = found.min_by(|(_, one), (_, other)| size(one).total_cmp(&size(other)))?;
+        from
+    })
+}
+
+/// Turns all rotations to angles between -pi and pi.
+fn within_a_turn(forward: &Forward, q: &mut [f64]) {
     for (value, variable) in q.iter_mut().zip(forward.variables()) {
         if *variable == Variable::Rotation {
             *value -= TAU * (*value / TAU).round();
         }
     }
-    Some((q, miss))
 }
 
 impl SingleLoop {
@@ -57,6 +69,23 @@ impl SingleLoop {
         let forward = self.forward.get_or_init(|| Forward::of(&self.chain)).as_ref()?;
         let total = forward.variables().len();
         nearest_of_all(forward, &vec![0.0; total], &(0..total).collect::<Vec<_>>(), &pose.float)
+    }
+
+    /// Returns configurations of an arm within the tolerance of a pose that least squares find from the zero position and from places all
+    /// over. Those of a near self-motion are a few of many.
+    pub(super) fn all_nearest(&self, pose: &Placement, tolerance: Tolerance) -> Vec<(Vec<f64>, PoseError)> {
+        let Some(forward) = self.forward.get_or_init(|| Forward::of(&self.chain)).as_ref() else { return Vec::new() };
+        let (zero, all) = (vec![0.0; forward.variables().len()], (0..forward.variables().len()).collect::<Vec<_>>());
+        let mut found = Vec::<(Vec<f64>, PoseError)>::new();
+        for from in std::iter::once(zero.clone()).chain(starts(forward, &zero, &all)) {
+            let (mut q, miss) = nearest(forward, &from, &all, &pose.float, tolerance);
+            within_a_turn(forward, &mut q);
+            let is_known = |other: &Vec<f64>| q.iter().zip(other).all(|(x, y)| (x - y).abs() < SAME);
+            if tolerance.allows(&miss) && !found.iter().any(|(other, _)| is_known(other)) {
+                found.push((q, miss));
+            }
+        }
+        found
     }
 }
 

@@ -45,7 +45,7 @@ pub(super) fn not_denied(verdict: Verdict) -> Verdict {
 /// Returns the verdict on a pose that nothing reaches exactly, where it is not proved that nothing comes near it.
 pub(super) fn perhaps_near(verdict: &Verdict, code: Code) -> Verdict {
     let reason = format!(
-        "not proved: nothing was found near the pose, but rounding decides what reaches it exactly; {}",
+        "not proved: rounding decides what reaches the pose exactly, and what comes near it is not known in full; {}",
         verdict.reason
     );
     let (status, proof) = (Status::Incomplete, Proof::None);

@@ -80,6 +80,14 @@ impl Vicinity<'_> {
         self.neighbourhood(pose, tolerance, false, |here| here.closest(&starts))?
     }
 
+    /// Returns the unknowns of a configuration of an arm, in the unit of the loop.
+    pub fn unknowns(&self, q: &[f64]) -> Six<f64> {
+        let (closed, scale) = self.closed();
+        let joints = self.prepared.layout.joint_variables();
+        let values = joints.map(|joint| joint.and_then(|joint| q.get(joint)).copied().unwrap_or_default());
+        in_unit(&values, &closed, 1.0 / scale)
+    }
+
     /// The solutions of a list, in the unit of the loop.
     fn starts(&self, assembly: &Assembly) -> Vec<Start> {
         let (closed, scale) = self.closed();

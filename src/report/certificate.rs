@@ -8,9 +8,9 @@ use crate::catalogue::{LinkageCase, LinkageFile, SphereFile};
 use crate::certificate::{
     Ball, ChainClosure, Closed, FAMILIES, FORMAT, Fault, LinkageClosure, Listed, Near, VERSION, balls,
     balls_of_linkage, check, claim_of_families, closed, data_of, data_of_linkage, data_of_loop,
-    data_of_turning_linkage, data_of_turning_loop, data_of_turning_sphere, proof_by_distance, proof_of, proof_of_all, proof_of_doubles,
-    proof_of_kernel, proof_of_motion, proof_of_own, proof_of_points, proof_of_polynomial, proof_of_real_list,
-    proof_of_rest, proof_of_self_motion, proof_of_sweep, proved_modes,
+    data_of_turning_linkage, data_of_turning_loop, data_of_turning_sphere, proof_by_distance, proof_of, proof_of_all,
+    proof_of_doubles, proof_of_kernel, proof_of_motion, proof_of_own, proof_of_points, proof_of_polynomial,
+    proof_of_real_list, proof_of_rest, proof_of_self_motion, proof_of_sweep, proved_modes,
 };
 use crate::conditions::four_bar::{self, FourBar};
 use crate::derivation::Derivation;
@@ -156,7 +156,11 @@ fn counted(closed: &Closed, solution: &Solution) -> Result<(Value, Vec<Ball>, Va
 }
 
 /// Returns the claim, the modes and the proof of an answer with double solutions; `None` where theorem 15 does not cover it.
-fn with_doubles(closure: &ChainClosure, closed: &Closed, solution: &Solution) -> Option<(Value, Vec<Value>, Vec<Value>)> {
+fn with_doubles(
+    closure: &ChainClosure,
+    closed: &Closed,
+    solution: &Solution,
+) -> Option<(Value, Vec<Value>, Vec<Value>)> {
     let listed = || solution.modes.iter().filter(|mode| !mode.near);
     let of = |multiplicity: usize| -> Vec<Near> {
         let own = listed().filter(|mode| mode.multiplicity == multiplicity);

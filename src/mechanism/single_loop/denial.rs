@@ -42,7 +42,7 @@ impl Question<'_> {
                     continue;
                 }
                 *verdict = perhaps_near(verdict, self.open_code());
-                return (near, within);
+                return (self.by_least_squares(vicinity, pose, within), within);
             }
             verdict.status = Status::Complete;
             if within != tolerance {
@@ -52,6 +52,12 @@ impl Question<'_> {
             return (near, within);
         }
         (Near::default(), tolerance)
+    }
+
+    /// Returns what least squares find within the tolerance, which are not all that come near.
+    fn by_least_squares(&self, vicinity: &Vicinity<'_>, pose: &Placement, within: Tolerance) -> Near {
+        let modes = self.of.all_nearest(pose, within).into_iter();
+        Near { modes: modes.map(|(q, miss)| (vicinity.unknowns(&q), miss)).collect(), families: Vec::new() }
     }
 
     /// Whether everything that is known to come near the pose stays far from it. Dependent joints reach poses of a lower dimension, which
