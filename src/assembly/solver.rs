@@ -6,7 +6,7 @@ use super::closed_form::Rounded;
 use super::high_precision::solve_in_high_precision;
 use super::lane_list::{LaneList, LaneWorkspace};
 use super::limits;
-use super::mode::{Assembly, Mode, Roots};
+use super::mode::{Assembly, Mode, Roots, wrapped};
 use super::platform::{PlatformAssembly, PlatformWorkspace};
 use super::prepared::PreparedCut;
 use super::search::{AS_IT_IS, Effort, Search};
@@ -96,6 +96,8 @@ const ANY_PLACE: [f64; 6] = [0.7, -1.1, 1.9, 0.4, -2.3, 1.3];
 /// Places at which ways to find real solutions are compared: with one, the first way fails at 8 poses of general arms in a hundred, with
 /// so many at 6.
 const PLACES: usize = 5;
+/// Roundings of the difference of two angles, at most.
+const ROUNDING: f64 = 1e-14;
 /// Places at which the way to all solutions is tried: at one of them f64 leaves too much unproved for 2 arms in a hundred.
 const PLACES_OF_ALL: usize = 2;
 /// Rounding errors, in units u, of the rotation of a closing transformation, by rows. It is a product of three rotations,
@@ -456,6 +458,44 @@ impl Solver {
             let farthest = own.iter().map(|z| z.im.abs()).fold(0.0, f64::max);
             let proof = certificate_in_any_frame(&closed, &own, off);
             !mode.real && proof.is_some_and(|proof| proof.radius < farthest)
+        })
+    }
+
+    /// Returns whether it is proved that at every pose within the tolerance the real solutions are these, each moved a little, and no others.
+    ///
+    /// Each is alone in a ball at all of these poses, and the balls are apart in one angle. If the determinant in this angle has at most as
+    /// many zeros as there are balls, each zero is that of one ball and simple, so that there is no configuration beside them.
+    #[must_use]
+    pub fn stay_alone(
+        &self,
+        gap: &Gap,
+        exact: &dyn Fn() -> Option<ClosedLoop<DoubleDouble>>,
+        tolerance: Tolerance,
+        modes: &[Mode],
+    ) -> bool {
+        let closed = self.close(gap);
+        let [off, _] = self.margins(gap, Margin::Tolerance(tolerance));
+        let scale = |variable: Variable| if variable == Variable::Translation { self.scale } else { 1.0 };
+        let radius = |mode: &Mode| {
+            let own: Six<f64> = std::array::from_fn(|k| mode.unknowns[k].re / scale(closed.variables[k]));
+            certificate_in_any_frame(&closed, &own, off).map(|proof| proof.radius)
+        };
+        let Some(radii) = modes.iter().map(radius).collect::<Option<Vec<f64>>>() else { return false };
+        let unit = DoubleDouble::from(1.0 / self.scale);
+        let exact = || exact().map(|exact| exact.in_unit(&unit));
+        let order = self.zero_order.get_or_init(|| self.zero_order(&exact));
+        order.iter().any(|&(k, hidden)| {
+            let prepared = &self.prepared[k];
+            let index = prepared.cut.unknown_index(usize::from(hidden == Hidden::Second));
+            let angle = |mode: &Mode| if prepared.cut.reversed { -mode.unknowns[index].re } else { mode.unknowns[index].re };
+            let angles: Vec<f64> = modes.iter().map(angle).collect();
+            let are_apart = |i: usize, j: usize| {
+                wrapped(angles[i] - angles[j]).abs() > radii[i] + radii[j] + ROUNDING
+            };
+            (0..angles.len()).all(|i| (0..i).all(|j| are_apart(i, j)))
+                && prepared
+                    .enclosed(&exact)
+                    .is_some_and(|rows| rows.equations(&closed, off).has_no_more_zeros(hidden, &angles))
         })
     }
 

@@ -156,16 +156,57 @@ enum Count {
 }
 
 impl Piece {
-    fn count(&self) -> Count {
-        let sign = |x: f64| {
-            if x > self.error {
-                1
-            } else if x < -self.error {
-                -1
-            } else {
-                0
+    /// Returns the Bernstein coefficients on an arc of the polynomial that has these values at [`samples`], each off by at most its error.
+    fn of_arc(arc: usize, values: &[f64; SAMPLES], errors: &[f64; SAMPLES]) -> Self {
+        let end = (TAU / (4 * ARCS) as f64).tan();
+        let mut piece = Self { coefficients: [0.0; SIZE], error: 0.0, depth: 0, low: -end, high: end };
+        for (slot, row) in piece.coefficients.iter_mut().zip(&TABLES.weights) {
+            let (mut sum, mut error) = (0.0, 0.0);
+            for (j, weight) in row.iter().enumerate() {
+                let at = (j + arc * (SAMPLES / ARCS)) % SAMPLES;
+                let term = weight * values[at];
+                sum += term;
+                // A weight is rounded twice, a product, and a sum of so many terms by one of each.
+                error += weight.abs() * errors[at] + (SAMPLES as f64 + 6.0) * ROUNDOFF * term.abs();
             }
-        };
+            *slot = sum;
+            piece.error = piece.error.max(1.01 * error);
+        }
+        piece
+    }
+
+    /// Returns the sign of a coefficient, 0 where it is not sure.
+    fn sign(&self, x: f64) -> i32 {
+        if x > self.error {
+            1
+        } else if x < -self.error {
+            -1
+        } else {
+            0
+        }
+    }
+
+    /// Returns the most zeros in the piece, with multiplicity, of all polynomials within the error; `None` where one may be at an end.
+    ///
+    /// They are the sign changes of the coefficients, where those that are not sure have the signs that change most often.
+    fn most(&self) -> Option<usize> {
+        let ends = [0, SIZE - 1].map(|k| self.sign(self.coefficients[k]));
+        if ends.contains(&0) {
+            return None;
+        }
+        // The most changes up to a coefficient that is positive, and up to one that is negative.
+        let mut most = if ends[0] > 0 { [Some(0), None] } else { [None, Some(0)] };
+        for x in &self.coefficients[1..] {
+            let sign = self.sign(*x);
+            let change = |from: Option<usize>, other: Option<usize>| from.max(other.map(|count| count + 1));
+            let next = [change(most[0], most[1]), change(most[1], most[0])];
+            most = [if sign < 0 { None } else { next[0] }, if sign > 0 { None } else { next[1] }];
+        }
+        most[usize::from(ends[1] < 0)]
+    }
+
+    fn count(&self) -> Count {
+        let sign = |x: f64| self.sign(x);
         let (first, last) = (sign(self.coefficients[0]), sign(self.coefficients[SIZE - 1]));
         if first == 0 || last == 0 {
             return Count::Unknown;
@@ -213,22 +254,8 @@ pub fn zeros(values: &[f64; SAMPLES], errors: &[f64; SAMPLES]) -> Option<Zeros> 
     let mut zeros = Zeros { angles: [0.0; 2 * DEGREE], count: 0 };
     let mut visited = 0;
     let mut pieces = [Piece { coefficients: [0.0; SIZE], error: 0.0, depth: 0, low: -1.0, high: 1.0 }; DEPTH + 2];
-    let end = (TAU / (4 * ARCS) as f64).tan();
     for arc in 0..ARCS {
-        let first = &mut pieces[0];
-        (first.error, first.depth, first.low, first.high) = (0.0, 0, -end, end);
-        for (slot, row) in first.coefficients.iter_mut().zip(&TABLES.weights) {
-            let (mut sum, mut error) = (0.0, 0.0);
-            for (j, weight) in row.iter().enumerate() {
-                let at = (j + arc * (SAMPLES / ARCS)) % SAMPLES;
-                let term = weight * values[at];
-                sum += term;
-                // A weight is rounded twice, a product, and a sum of so many terms by one of each.
-                error += weight.abs() * errors[at] + (SAMPLES as f64 + 6.0) * ROUNDOFF * term.abs();
-            }
-            *slot = sum;
-            first.error = first.error.max(1.01 * error);
-        }
+        pieces[0] = Piece::of_arc(arc, values, errors);
         let mut left = 1;
         while left > 0 {
             left -= 1;
@@ -237,8 +264,7 @@ pub fn zeros(values: &[f64; SAMPLES], errors: &[f64; SAMPLES]) -> Option<Zeros> 
             match piece.count() {
                 Count::None => {}
                 Count::One if zeros.count < 2 * DEGREE => {
-                    let middle = FIRST[1].atan2(FIRST[0]) + TAU * arc as f64 / ARCS as f64;
-                    zeros.angles[zeros.count] = middle + 2.0 * zero_of(&piece).atan();
+                    zeros.angles[zeros.count] = middle_of(arc) + 2.0 * zero_of(&piece).atan();
                     zeros.count += 1;
                 }
                 _ if piece.depth >= DEPTH || visited > MOST => return None,
@@ -250,6 +276,37 @@ pub fn zeros(values: &[f64; SAMPLES], errors: &[f64; SAMPLES]) -> Option<Zeros> 
         }
     }
     Some(zeros)
+}
+
+/// Returns the angle in the middle of an arc.
+fn middle_of(arc: usize) -> f64 {
+    FIRST[1].atan2(FIRST[0]) + TAU * arc as f64 / ARCS as f64
+}
+
+/// Returns whether every trigonometric polynomial of degree 8 that has these values at [`samples`], each off by at most its error, has at
+/// most as many zeros as there are angles given, with multiplicity. Pieces are halved until each may have as many as angles lie in it: zeros
+/// that are nearer to each other than the errors tell need not be told apart.
+#[must_use]
+pub fn are_no_more(values: &[f64; SAMPLES], errors: &[f64; SAMPLES], angles: &[f64]) -> bool {
+    if !values.iter().chain(errors).all(|x| x.is_finite()) {
+        return false;
+    }
+    let (mut total, mut visited) = (0, 0);
+    for arc in 0..ARCS {
+        let places: Vec<f64> = angles.iter().map(|angle| (0.5 * (angle - middle_of(arc))).tan()).collect();
+        let mut pieces = vec![Piece::of_arc(arc, values, errors)];
+        while let Some(piece) = pieces.pop() {
+            visited += 1;
+            let inside = places.iter().filter(|place| (piece.low..piece.high).contains(*place)).count();
+            match piece.most() {
+                Some(most) if most <= inside => total += most,
+                _ if piece.depth >= DEPTH || visited > MOST => return false,
+                _ => pieces.extend(piece.halves()),
+            }
+        }
+    }
+    // Rounding may have counted an angle on both sides of an end.
+    total <= angles.len()
 }
 
 /// Returns a half-tangent near the only zero of a piece: bisection with secants, in the Bernstein form.
@@ -302,6 +359,24 @@ mod tests {
 
     fn values(f: impl Fn(f64) -> f64) -> [f64; SAMPLES] {
         samples().map(|(cos, sin)| f(sin.atan2(cos)))
+    }
+
+    #[test]
+    fn zeros_that_are_not_told_apart_are_counted() {
+        let near = [0.3, 0.3 + 1e-6, 2.0, 2.0 + 1e-7, 4.0, 4.0 + 1e-6];
+        let f = |extra: f64| {
+            values(|q: f64| {
+                let rest = (1.5 + q.cos()).powi(4) * (1.0 - (q - 5.0).cos() + extra);
+                near.iter().map(|a| (0.5 * (q - a)).sin()).product::<f64>() * rest
+            })
+        };
+        let errors = [1e-9; SAMPLES];
+        assert!(zeros(&f(0.5), &errors).is_none());
+        assert!(are_no_more(&f(0.5), &errors, &near));
+        assert!(!are_no_more(&f(0.5), &errors, &near[..5]) && !are_no_more(&f(0.5), &errors, &near[1..]));
+        // Another pair of zeros may be within the errors, as a pair of complex ones just beside the circle is.
+        assert!(!are_no_more(&f(1e-12), &errors, &near));
+        assert!(are_no_more(&f(1e-3), &[1e-14; SAMPLES], &near));
     }
 
     #[test]

@@ -11,7 +11,7 @@
 //! kernel has dimension 1, z and x3 are unique, so are unknowns 4 and 5, since L has a left inverse, and unknown 6 closes the loop.
 //! Hence a loop has at most as many real configurations as the exact determinant has real zeros, if all of these are simple.
 
-use super::circle_zeros::{SAMPLE_ERROR, SAMPLES, Zeros, samples, zeros};
+use super::circle_zeros::{SAMPLE_ERROR, SAMPLES, Zeros, are_no_more, samples, zeros};
 use super::closure_lanes::LaneRows;
 use crate::algebra::bounded::{Bounded, Floating, Magnitude};
 use crate::algebra::double_double::DoubleDouble;
@@ -156,14 +156,26 @@ impl EnclosedEquations {
     /// them where they are all but double, too: it is added to the errors, in parts of the largest value.
     #[must_use]
     pub fn zeros(&self, hidden: Hidden, blur: f64) -> Option<Zeros> {
-        let columns = brackets::columns(&self.bounded(), hidden);
-        let value = |(cos, sin): (f64, f64)| {
-            let [cos, sin] = [cos, sin].map(|x| Bounded::new(x, SAMPLE_ERROR));
-            brackets::determinant(&brackets::at(&columns, &cos, &sin))
-        };
-        let values: [Bounded<f64>; SAMPLES] = samples().map(value);
+        let values = self.samples(hidden);
         let largest = values.iter().map(|x| x.value.abs()).fold(0.0, f64::max);
         zeros(&values.map(|x| x.value), &values.map(|x| x.error() + blur * largest))
+    }
+
+    /// Returns whether the determinant in the hidden angle has at most as many real zeros as there are angles given, which lie near them; the
+    /// errors may hide which of them are apart.
+    #[must_use]
+    pub fn has_no_more_zeros(&self, hidden: Hidden, angles: &[f64]) -> bool {
+        let values = self.samples(hidden);
+        are_no_more(&values.map(|x| x.value), &values.map(|x| x.error()), angles)
+    }
+
+    /// Returns the values of the determinant at the samples of the hidden angle.
+    fn samples(&self, hidden: Hidden) -> [Bounded<f64>; SAMPLES] {
+        let columns = brackets::columns(&self.bounded(), hidden);
+        samples().map(|(cos, sin)| {
+            let [cos, sin] = [cos, sin].map(|x| Bounded::new(x, SAMPLE_ERROR));
+            brackets::determinant(&brackets::at(&columns, &cos, &sin))
+        })
     }
 
     fn bounded(&self) -> Bilinear<Bounded<f64>> {

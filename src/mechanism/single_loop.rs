@@ -697,8 +697,13 @@ impl Question<'_> {
 
     /// Whether the solutions are roots of eliminants that decide what f64 leaves open.
     fn has_eliminants(&self) -> bool {
-        let rotations = self.prepared.layout.loop_kinds().iter().all(|kind| *kind == Variable::Rotation);
-        !self.only_lists && self.roots == Roots::All && rotations && self.prepared.layout.spherical_unknown().is_none()
+        !self.only_lists && self.roots == Roots::All && self.has_rotations_alone()
+    }
+
+    /// Whether all unknowns are rotations, and none belongs to a spherical joint.
+    fn has_rotations_alone(&self) -> bool {
+        let kinds = self.prepared.layout.loop_kinds();
+        kinds.iter().all(|kind| *kind == Variable::Rotation) && self.prepared.layout.spherical_unknown().is_none()
     }
 
     /// The loop rounded to f64, lengths over a unit, and that unit.

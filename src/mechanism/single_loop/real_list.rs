@@ -1,9 +1,10 @@
 //! Lists of real solutions that the zeros of a determinant prove to be complete.
 
-use super::Question;
+use super::{NOTHING, Question};
 use crate::algebra::double_double::DoubleDouble;
 use crate::assembly::{Assembly, Gap, Margin, Mode, Solver, Workspace, distinct_real};
 use crate::kinematics::closed_loop::ClosedLoop;
+use crate::kinematics::tolerance::Tolerance;
 use crate::mechanism::unproved::is_settled;
 use crate::verdict::{Code, Proof, Status, Verdict};
 
@@ -39,6 +40,15 @@ impl Question<'_> {
         let blur = NEAR * angle.max(tolerance.length / self.prepared.solver.unit());
         self.real_by(way, Margin::Blur(blur), workspace, assembly) && !assembly.modes.is_empty()
             || self.real_by(way, Margin::Tolerance(tolerance), workspace, assembly)
+            || self.real_by(way, Margin::Blur(0.0), workspace, assembly) && self.stay_alone(tolerance, &assembly.modes)
+    }
+
+    /// Whether real solutions are proved to be all, and alone at every pose within the tolerance: those of an arm as built are in pairs and
+    /// fours, nearer to each other than the zeros of a determinant tell.
+    fn stay_alone(&self, tolerance: Tolerance, real: &[Mode]) -> bool {
+        let is_general = self.prepared.solver.structural_rank() == 6 && self.has_rotations_alone();
+        let exact = || self.prepared.exact(&self.of.chain);
+        is_general && !real.is_empty() && self.prepared.solver.stay_alone(self.gap, &exact, tolerance, real)
     }
 
     /// The verdict on a list of certified solutions, complex ones among them, where real solutions are asked for alone, the verdict at
@@ -48,16 +58,24 @@ impl Question<'_> {
         &self,
         verdict: &Verdict,
         workspace: &mut Workspace,
-        assembly: &Assembly,
+        assembly: &mut Assembly,
     ) -> Option<Verdict> {
         let is_certified = |mode: &Mode| mode.multiplicity == 1 && mode.certificate.is_some();
         let is_asked = self.only_real_list && !self.only_lists && !is_settled(verdict) && assembly.self_motion == 0;
-        if !is_asked || !assembly.modes.iter().all(is_certified) {
+        if !is_asked {
             return None;
         }
         let number = distinct_real(&self.prepared.layout.loop_kinds(), &assembly.modes)?;
         // Whether a pose that is not reached is reached nearly, complex solutions tell.
         if number == 0 && self.tolerance.is_some() {
+            return None;
+        }
+        let real: Vec<Mode> = assembly.modes.iter().filter(|mode| mode.real).cloned().collect();
+        if self.stay_alone(self.tolerance.unwrap_or(NOTHING), &real) {
+            assembly.modes.retain(is_certified);
+            return Some(of_real_zeros(assembly));
+        }
+        if !assembly.modes.iter().all(is_certified) {
             return None;
         }
         // What is near a pose may be among the complex solutions that this list lacks: a double one that rounding split is the hardest to
