@@ -96,6 +96,8 @@ const ANY_PLACE: [f64; 6] = [0.7, -1.1, 1.9, 0.4, -2.3, 1.3];
 /// Places at which ways to find real solutions are compared: with one, the first way fails at 8 poses of general arms in a hundred, with
 /// so many at 6.
 const PLACES: usize = 5;
+/// Number of configurations that may share a hidden angle, with which a further one would not go unnoticed: see [`Solver::stay_alone`].
+const MOST_SHARED: usize = 3;
 /// Roundings of the difference of two angles, at most.
 const ROUNDING: f64 = 1e-14;
 /// Places at which the way to all solutions is tried: at one of them f64 leaves too much unproved for 2 arms in a hundred.
@@ -463,8 +465,11 @@ impl Solver {
 
     /// Returns whether it is proved that at every pose within the tolerance the real solutions are these, each moved a little, and no others.
     ///
-    /// Each is alone in a ball at all of these poses, and the balls are apart in one angle. If the determinant in this angle has at most as
-    /// many zeros as there are balls, each zero is that of one ball and simple, so that there is no configuration beside them.
+    /// Each is alone in a ball at all of these poses. Let the determinant of a hidden angle have at most as many zeros as there are balls,
+    /// with multiplicity. At a zero the kernel holds `(1, z, z^2, z^3) x (1, x)` of every configuration there, z and x being half-tangents of
+    /// two other angles, from which the rest follows, and the multiplicity is its dimension at least. Vectors of up to four configurations are
+    /// independent if no more than two of them have one z: a product of up to three factors in z, or two and one in x, is zero at all others
+    /// and not at one. So where balls share the hidden angle, three at most and apart in z, a further configuration would need one zero more.
     #[must_use]
     pub fn stay_alone(
         &self,
@@ -486,13 +491,21 @@ impl Solver {
         let order = self.zero_order.get_or_init(|| self.zero_order(&exact));
         order.iter().any(|&(k, hidden)| {
             let prepared = &self.prepared[k];
-            let index = prepared.cut.unknown_index(usize::from(hidden == Hidden::Second));
-            let angle = |mode: &Mode| if prepared.cut.reversed { -mode.unknowns[index].re } else { mode.unknowns[index].re };
-            let angles: Vec<f64> = modes.iter().map(angle).collect();
-            let are_apart = |i: usize, j: usize| {
+            let places = if hidden == Hidden::First { [0, 1] } else { [1, 0] };
+            let [angles, others] = places.map(|place| -> Vec<f64> {
+                let index = prepared.cut.unknown_index(place);
+                let sign = if prepared.cut.reversed { -1.0 } else { 1.0 };
+                modes.iter().map(|mode| sign * mode.unknowns[index].re).collect()
+            });
+            let are_apart = |angles: &[f64], i: usize, j: usize| {
                 wrapped(angles[i] - angles[j]).abs() > radii[i] + radii[j] + ROUNDING
             };
-            (0..angles.len()).all(|i| (0..i).all(|j| are_apart(i, j)))
+            let beside = |i: usize| (0..modes.len()).filter(move |&j| j != i);
+            let is_clear = |i: usize| {
+                let shared = || beside(i).filter(|&j| !are_apart(&angles, i, j));
+                shared().count() < MOST_SHARED && shared().all(|j| are_apart(&others, i, j))
+            };
+            (0..modes.len()).all(is_clear)
                 && prepared
                     .enclosed(&exact)
                     .is_some_and(|rows| rows.equations(&closed, off).has_no_more_zeros(hidden, &angles))
