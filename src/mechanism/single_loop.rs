@@ -630,6 +630,9 @@ impl Question<'_> {
                         return verdict;
                     }
                 }
+                if let Some(verdict) = self.of_real_alone(assembly) {
+                    return verdict;
+                }
                 if self.has_real_list(workspace, assembly) {
                     return of_real_zeros(assembly);
                 }

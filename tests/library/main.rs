@@ -3,6 +3,7 @@
 mod accuracy;
 mod allocation;
 mod arms;
+mod arms_as_built;
 mod bennett_dyads;
 mod boxes;
 mod certificate;

@@ -51,6 +51,21 @@ impl Question<'_> {
         is_general && !real.is_empty() && self.prepared.solver.stay_alone(self.gap, &exact, tolerance, real)
     }
 
+    /// The verdict on a list with certified real solutions that are proved to be all within the tolerance; complex ones without a certificate
+    /// leave the list.
+    pub(super) fn of_real_alone(&self, assembly: &mut Assembly) -> Option<Verdict> {
+        if self.only_lists || assembly.self_motion > 0 {
+            return None;
+        }
+        distinct_real(&self.prepared.layout.loop_kinds(), &assembly.modes)?;
+        let real: Vec<Mode> = assembly.modes.iter().filter(|mode| mode.real).cloned().collect();
+        if !self.stay_alone(self.tolerance.unwrap_or(NOTHING), &real) {
+            return None;
+        }
+        assembly.modes.retain(|mode| mode.multiplicity == 1 && mode.certificate.is_some());
+        Some(of_real_zeros(assembly))
+    }
+
     /// The verdict on a list of certified solutions, complex ones among them, where real solutions are asked for alone, the verdict at
     /// hand is not proved, and the real ones are proved to be all by the zeros of a determinant. The complex ones stay in the list:
     /// near a pose may be what is not real here.
@@ -70,10 +85,8 @@ impl Question<'_> {
         if number == 0 && self.tolerance.is_some() {
             return None;
         }
-        let real: Vec<Mode> = assembly.modes.iter().filter(|mode| mode.real).cloned().collect();
-        if self.stay_alone(self.tolerance.unwrap_or(NOTHING), &real) {
-            assembly.modes.retain(is_certified);
-            return Some(of_real_zeros(assembly));
+        if let Some(verdict) = self.of_real_alone(assembly) {
+            return Some(verdict);
         }
         if !assembly.modes.iter().all(is_certified) {
             return None;
