@@ -63,7 +63,12 @@ impl Question<'_> {
             return None;
         }
         assembly.modes.retain(|mode| mode.multiplicity == 1 && mode.certificate.is_some());
-        Some(of_real_zeros(assembly))
+        let real = assembly.real();
+        let reason = format!(
+            "{real} distinct certified real solutions: the closure polynomial in a joint angle has no more real zeros; complex solutions were \
+             not counted"
+        );
+        Some(Verdict { reason, ..of_real_zeros(assembly) })
     }
 
     /// The verdict on a list of certified solutions, complex ones among them, where real solutions are asked for alone, the verdict at
