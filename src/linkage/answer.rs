@@ -207,9 +207,12 @@ fn motion(family: &Family, found: &Assemblies) -> (bool, String) {
             Some(doubt) => format!("the isolated ones may not be all: {doubt}"),
             None => "the isolated ones listed beside it are all that there are".to_owned(),
         };
-        let what =
-            if family.kind == FamilyKind::Dyad { "a dyad whose ends coincide" } else { "a body whose joints coincide" };
-        return (found.doubt.is_none(), format!("{what} turns freely; {list}"));
+        let what = match family.kind {
+            FamilyKind::Dyad => "a dyad whose ends coincide turns freely",
+            FamilyKind::Slide => "bodies between slides move along them, by linear equations",
+            _ => "a body whose joints coincide turns freely",
+        };
+        return (found.doubt.is_none(), format!("{what}; {list}"));
     }
     let real = if family.is_proved {
         "a curve of real ones is among them: cuts at more places than there can be isolated ones have a real assembly each"

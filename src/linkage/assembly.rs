@@ -15,7 +15,7 @@ use super::quadratic::{Root, Solved, one_cycle, realness};
 use super::real_motion::Moving;
 use super::real_system::is_real;
 use super::state::{Half, Number, Place, State, place_of, place_within};
-use crate::algebra::ring::Ring;
+use super::straight::{open_angles, slides_alone, with_slides};
 use crate::error::{Error, Result};
 use crate::kinematics::linkage::{Gaussian, Given, Linkage, Pair};
 use rug::Rational;
@@ -86,6 +86,8 @@ pub struct Solution {
 pub enum FamilyKind {
     /// A dyad whose ends coincide.
     Dyad,
+    /// Bodies that slides alone hold together, which do not turn.
+    Slide,
     /// Bodies whose joints coincide.
     Spin,
     /// Another one, beside which there may be isolated assemblies and more families.
@@ -189,14 +191,16 @@ pub fn groups_of(linkage: &Linkage, given: &[Given]) -> Result<Groups> {
         count: -2,
     });
     let gears = gears_of(linkage)?;
-    let found = geared_groups(linkage.bodies.len(), &joints, &gears, merged)?;
+    let found =
+        with_slides(linkage, &joints, geared_groups(linkage.bodies.len(), &joints, &gears, merged.clone())?, &merged);
     let named = |group: &Group| {
         let names: Vec<&str> = group.clusters.iter().take(8).map(|body| linkage.bodies[*body].name.as_str()).collect();
         names.join(", ") + if group.clusters.len() > 8 { ", ..." } else { "" }
     };
     if let Some(group) = held.iter().chain(&found.list).find(|group| group.count < 0) {
         let (merged, free) = glued(linkage, &[])?;
-        let without = geared_groups(linkage.bodies.len(), &free, &gears, merged)?;
+        let without =
+            with_slides(linkage, &free, geared_groups(linkage.bodies.len(), &free, &gears, merged.clone())?, &merged);
         if !given.is_empty() && without.list.iter().all(|group| group.count >= 0) {
             let message = format!(
                 "found inputs that close a rigid part ({}), expected inputs of joints that can move; without inputs the linkage has {}",
@@ -372,17 +376,7 @@ pub(super) fn attempt(
             if group.gears.is_empty() {
                 branch(at, &mut solution, &mut next, &mut found, asked);
             } else {
-                solution.route =
-                    if is_train(&closure.equations) { Route::Wheel } else { Route::Gears(group.gears.len()) };
-                let route = solution.route.clone();
-                match geared(linkage, &closure, group, state) {
-                    Geared::Wheels(roots) => add(Solved::Roots(roots), at, &mut solution, &mut next, &mut found),
-                    Geared::Decided(decided) => by_basis(decided, &[], at, &mut solution, &mut next, &mut found),
-                    Geared::Undecided(reason) => {
-                        add(Solved::Undecided(reason), at, &mut solution, &mut next, &mut found);
-                    }
-                }
-                solution.route = route;
+                by_gears(at, &mut solution, &mut next, &mut found);
             }
             let is_open = !later.is_empty() && !follow(linkage, &mut found.curves[moving..], state, later, asked);
             if is_open && united.solve(at, later, moving, &mut found) {
@@ -420,8 +414,26 @@ pub(super) struct Branch<'a> {
 fn branch(at: Branch<'_>, solution: &mut Solution, next: &mut Vec<State>, found: &mut Assemblies, asked: Asked<'_>) {
     let Branch { linkage, closure, group, state } = at;
     let equations = &closure.equations;
+    if let Some(open) = open_angles(equations) {
+        add(open, at, solution, next, found);
+        return;
+    }
     if equations.loops() == 1 {
         add(one_cycle(equations, &state.top), at, solution, next, found);
+        return;
+    }
+    if equations.classes == 1 {
+        add(slides_alone(equations), at, solution, next, found);
+        return;
+    }
+    if !equations.angles.is_empty() {
+        // Cycles of slides alone leave more unknowns than equations: no pencil has them.
+        match decided(equations) {
+            Some(decided) => by_basis(decided, &[], at, solution, next, found),
+            None => {
+                found.doubt.get_or_insert(format!("cycles of slides in a group of {} bodies", group.clusters.len()));
+            }
+        }
         return;
     }
     if equations.slides.is_empty() && !has_pencil(equations, asked.complex) {
@@ -471,6 +483,22 @@ fn branch(at: Branch<'_>, solution: &mut Solution, next: &mut Vec<State>, found:
         found.doubt.get_or_insert(format!("{reason} (group of {} bodies)", group.clusters.len()));
     }
     add_proved(&general.solutions, at, next, found);
+}
+
+/// Solves a group with gears in one branch.
+fn by_gears(at: Branch<'_>, solution: &mut Solution, next: &mut Vec<State>, found: &mut Assemblies) {
+    let Branch { linkage, closure, group, state } = at;
+    let route = if is_train(&closure.equations) { Route::Wheel } else { Route::Gears(group.gears.len()) };
+    if let Some(open) = open_angles(&closure.equations) {
+        add(open, at, solution, next, found);
+    } else {
+        match geared(linkage, closure, group, state) {
+            Geared::Wheels(roots) => add(Solved::Roots(roots), at, solution, next, found),
+            Geared::Decided(decided) => by_basis(decided, &[], at, solution, next, found),
+            Geared::Undecided(reason) => add(Solved::Undecided(reason), at, solution, next, found),
+        }
+    }
+    solution.route = route;
 }
 
 /// Adds the assemblies of a group in one branch that are proved one by one.
@@ -603,16 +631,16 @@ fn add(solved: Solved, at: Branch<'_>, solution: &mut Solution, next: &mut Vec<S
         Solved::Undecided(reason) => {
             found.doubt.get_or_insert(reason);
         }
-        Solved::Curve(roots) => {
+        Solved::Moving(moving) => {
+            let rates = &moving.ways;
             let mut samples: Vec<State> =
-                roots.iter().map(|root| closure.assembled(state, &root.turns, &root.shifts)).collect();
+                moving.samples.iter().map(|root| closure.assembled(state, &root.turns, &root.shifts)).collect();
             if samples.is_empty() {
                 return;
             }
-            // Where all three joints coincide, both links turn.
-            let is_point = closure.equations.classes == 3 && closure.equations.cycles[0].iter().all(Ring::is_zero);
-            let dimension = if is_point { 2 } else { 1 };
-            let family = Family::new(samples.remove(0), group.joints.clone(), dimension, FamilyKind::Dyad);
+            let joints = closure.moving_joints(at.linkage, group, state, rates);
+            let kind = if closure.equations.classes == 1 { FamilyKind::Slide } else { FamilyKind::Dyad };
+            let family = Family::new(samples.remove(0), joints, rates.len(), kind);
             found.curves.push(Family { samples, ..family });
         }
         Solved::Roots(roots) => {

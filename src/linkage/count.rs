@@ -114,7 +114,9 @@ impl<'a> Dyads<'a> {
         let Some(closure) = Closure::new(self.linkage, &self.groups[group], state) else { return left_open("a group") };
         let roots = match one_cycle(&closure.equations, &state.top) {
             Solved::Roots(roots) => roots,
-            Solved::Curve(_) => return left_open("the ends of a dyad coincide, which turns freely there"),
+            Solved::Moving(_) => {
+                return left_open("a dyad moves by itself there: its ends coincide, or its slides are parallel");
+            }
             Solved::Undecided(reason) => return Err(Halt::Undecided(reason)),
         };
         let real = if state.real { realness(&roots) } else { vec![Some(false); roots.len()] };

@@ -166,6 +166,9 @@ impl Solved {
     fn of(closure: &Closure<Laurent>, variable: usize) -> Option<Self> {
         let equations = &closure.equations;
         let [c] = equations.cycles.as_slice() else { return None };
+        if !equations.angles.iter().all(Ring::is_zero) {
+            return None;
+        }
         let y = unknown(variable);
         match (equations.classes, equations.slides.as_slice()) {
             (3, []) => {

@@ -32,6 +32,9 @@ pub struct Equations<N> {
     pub slides: Vec<Slide<N>>,
     /// Number of classes.
     pub classes: usize,
+    /// For every cycle of slides alone what vanishes where their directions agree about the angles: nothing turns in it, and
+    /// nothing can make up for a difference.
+    pub angles: Vec<N>,
 }
 
 /// The equations of a group of one branch, and what leads back from their solutions to the clusters.
@@ -80,6 +83,61 @@ impl<R: Ring> Linear<R> {
     }
 }
 
+/// The class of every cluster, with the rotation of the cluster against it.
+type Classes<R> = Vec<(usize, Isotropic<R>)>;
+
+/// Returns the class of every cluster, the number of classes, and what vanishes where cycles of slides alone close in their angles;
+/// `None` for a joint of a cluster that is not there.
+fn classes<R: Half>(
+    linkage: &Linkage,
+    group: &Group,
+    state: &State<R>,
+    names: &[usize],
+) -> Option<(Classes<R>, usize, Vec<Isotropic<R>>)> {
+    let cluster_of = |body: usize| names.iter().position(|name| *name == state.bodies[body].0);
+    // theta_b own_b = theta_a own_a turn
+    let mut steps: Vec<(usize, usize, Isotropic<R>)> = Vec::new();
+    for index in &group.joints {
+        let joint = &linkage.joints[*index];
+        let Pair::Prismatic { turn, .. } = &joint.pair else { continue };
+        let [a, b] = joint.of;
+        let step = state.bodies[a].1.turn.mul(&number(turn)).mul(&state.bodies[b].1.turn.mirrored());
+        steps.push((cluster_of(a)?, cluster_of(b)?, step));
+    }
+    let mut class: Vec<Option<(usize, Isotropic<R>)>> = vec![None; names.len()];
+    let mut is_open = vec![true; steps.len()];
+    let mut classes = 0;
+    for start in 0..names.len() {
+        if class[start].is_some() {
+            continue;
+        }
+        class[start] = Some((classes, Isotropic::one()));
+        let mut open = vec![start];
+        while let Some(here) = open.pop() {
+            let turn = class[here].as_ref()?.1.clone();
+            for (place, (a, b, step)) in steps.iter().enumerate() {
+                let (next, turn) = if *a == here {
+                    (*b, turn.mul(step))
+                } else if *b == here {
+                    (*a, turn.mul(&step.mirrored()))
+                } else {
+                    continue;
+                };
+                if class[next].is_none() {
+                    class[next] = Some((classes, turn));
+                    is_open[place] = false;
+                    open.push(next);
+                }
+            }
+        }
+        classes += 1;
+    }
+    let class: Classes<R> = class.into_iter().collect::<Option<_>>()?;
+    let gap = |((a, b, step), _): (&(usize, usize, Isotropic<R>), &bool)| class[*a].1.mul(step).sub(&class[*b].1);
+    let angles = steps.iter().zip(&is_open).filter(|(_, is_open)| **is_open).map(gap).collect();
+    Some((class, classes, angles))
+}
+
 impl<R: Half> Closure<R> {
     /// The equations of a group; `None` for gears, which have others.
     #[must_use]
@@ -88,43 +146,7 @@ impl<R: Half> Closure<R> {
         names.sort_unstable();
         names.dedup();
         let cluster_of = |body: usize| names.iter().position(|name| *name == state.bodies[body].0);
-        // Classes by prismatic joints, with the rotation of every cluster against its class.
-        let mut class: Vec<Option<(usize, Isotropic<R>)>> = vec![None; names.len()];
-        let mut classes = 0;
-        for start in 0..names.len() {
-            if class[start].is_some() {
-                continue;
-            }
-            class[start] = Some((classes, Isotropic::one()));
-            let mut open = vec![start];
-            while let Some(here) = open.pop() {
-                for index in &group.joints {
-                    let joint = &linkage.joints[*index];
-                    let Pair::Prismatic { turn, .. } = &joint.pair else { continue };
-                    let [a, b] = [cluster_of(joint.of[0])?, cluster_of(joint.of[1])?];
-                    // theta_b own_b = theta_a own_a turn
-                    let step = state.bodies[joint.of[0]]
-                        .1
-                        .turn
-                        .mul(&number(turn))
-                        .mul(&state.bodies[joint.of[1]].1.turn.mirrored());
-                    let (next, step) = if a == here {
-                        (b, step)
-                    } else if b == here {
-                        (a, step.mirrored())
-                    } else {
-                        continue;
-                    };
-                    if class[next].is_none() {
-                        let turn = class[here].as_ref()?.1.mul(&step);
-                        class[next] = Some((classes, turn));
-                        open.push(next);
-                    }
-                }
-            }
-            classes += 1;
-        }
-        let class: Vec<(usize, Isotropic<R>)> = class.into_iter().collect::<Option<_>>()?;
+        let (class, classes, angles) = classes(linkage, group, state, &names)?;
         let sliding: Vec<usize> =
             group.joints.iter().copied().filter(|index| linkage.joints[*index].is_prismatic()).collect();
         let mut slides: Vec<Slide<Isotropic<R>>> = Vec::new();
@@ -185,7 +207,7 @@ impl<R: Half> Closure<R> {
         }
         let nodes = names.iter().zip(class).zip(origins);
         let clusters = nodes.map(|((name, (class, turn)), origin)| Node { name: *name, class, turn, origin }).collect();
-        Some(Self { equations: Equations { cycles, slides, classes }, clusters })
+        Some(Self { equations: Equations { cycles, slides, classes, angles }, clusters })
     }
 
     /// The class of the cluster in which a body is, and the rotation of the body against its class.
@@ -282,6 +304,7 @@ impl<N> Equations<N> {
             cycles: self.cycles.iter().map(all).collect::<Option<_>>()?,
             slides: self.slides.iter().map(slide).collect::<Option<_>>()?,
             classes: self.classes,
+            angles: all(&self.angles)?,
         })
     }
 }

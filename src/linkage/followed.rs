@@ -35,11 +35,16 @@ pub(super) fn follow(
     all
 }
 
+/// Whether every sample of a motion of this kind lies on it: one of another kind may be an isolated assembly beside it.
+fn is_simple(kind: FamilyKind) -> bool {
+    matches!(kind, FamilyKind::Dyad | FamilyKind::Slide | FamilyKind::Spin)
+}
+
 /// Whether a later motion is one of a group that the motion of an earlier one, solved in the branch `before`, leaves as it is: it joins
 /// as many clusters there as in the branch `behind` that group. The groups between that the earlier motion leaves as they are, too, are placed in
 /// both branches; groups that stand on it are placed in the second one alone.
 fn is_apart(linkage: &Linkage, motion: &Family, before: &State, behind: &State, later: &[Group]) -> bool {
-    if !matches!(motion.kind, FamilyKind::Dyad | FamilyKind::Spin) {
+    if !is_simple(motion.kind) {
         return false;
     }
     let [mut without, mut with] =
@@ -75,8 +80,7 @@ struct Further {
 }
 
 fn follow_one(linkage: &Linkage, family: &mut Family, before: &State, later: &[Group], asked: Asked<'_>) -> bool {
-    // A sample of another motion may be an isolated assembly beside it.
-    let is_proved = matches!(family.kind, FamilyKind::Dyad | FamilyKind::Spin);
+    let is_proved = is_simple(family.kind);
     let go_on = |sample: &State| {
         let found = attempt(linkage, sample, later, SHALLOW, false, asked).ok()?;
         // Another motion beside the first takes no part in that. Where it does, the first may have to stand still.

@@ -4,6 +4,7 @@
 //! clusters, as gears join three bodies and no pebble game counts them.
 
 use super::groups::{Group, Groups, Merged, groups};
+use super::straight::unite;
 use crate::algebra::sort;
 use crate::error::{Error, Result};
 use std::collections::{BTreeSet, HashMap};
@@ -41,12 +42,6 @@ pub fn geared_groups(
         open.retain(|(gear, _)| !group.gears.contains(gear));
         unite(&mut merged, &group);
         list.push(group);
-    }
-}
-
-fn unite(merged: &mut Merged, group: &Group) {
-    for pair in group.clusters.windows(2) {
-        merged.merge(pair[0], pair[1]);
     }
 }
 

@@ -47,6 +47,7 @@ mod real_system;
 pub mod space;
 pub mod sphere;
 pub mod state;
+pub mod straight;
 pub mod tower;
 pub mod tree;
 mod turn_system;

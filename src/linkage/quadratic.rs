@@ -5,6 +5,7 @@ use super::isotropic::{Isotropic, Value};
 use super::krawczyk::conjugate;
 use super::polynomial::turned;
 use super::state::{Half, number};
+use super::straight::{open_angles, slides_alone};
 use super::tower::Surd;
 use crate::algebra::ring::Ring;
 
@@ -24,10 +25,19 @@ pub struct Root<R = Value> {
 pub enum Solved<R = Value> {
     /// All of them.
     Roots(Vec<Root<R>>),
-    /// A curve of solutions, on which all these lie.
-    Curve(Vec<Root<R>>),
+    /// Solutions that are not isolated.
+    Moving(Moving<R>),
     /// The question that is left undecided.
     Undecided(String),
+}
+
+/// Solutions of a group that move from one to another.
+#[derive(Clone, Debug)]
+pub struct Moving<R = Value> {
+    /// Some of them.
+    pub samples: Vec<Root<R>>,
+    /// For every freedom what it moves: 1 for every class and then every slide that moves, 0 for those at rest.
+    pub ways: Vec<Vec<f64>>,
 }
 
 /// The tower of square roots of a branch.
@@ -91,7 +101,7 @@ impl Top {
 }
 
 /// A number that is the same in both halves.
-fn scalar<R: Decidable>(value: &R) -> Isotropic<R> {
+pub(super) fn scalar<R: Decidable>(value: &R) -> Isotropic<R> {
     Isotropic { z: value.clone(), w: value.clone() }
 }
 
@@ -106,7 +116,7 @@ fn samples<R: Decidable>() -> [Isotropic<R>; 3] {
     [0, 2, 5].map(|k| number(&turned(k).z))
 }
 
-fn undecided<R>(what: &str) -> Solved<R> {
+pub(super) fn undecided<R>(what: &str) -> Solved<R> {
     Solved::Undecided(format!("{what} is neither proved zero nor proved not to be"))
 }
 
@@ -140,6 +150,9 @@ fn roots<R: Decidable>(a: &R, b: &R, c: &R, tower: &Top) -> Result<Option<Vec<(R
 /// Solves a group of one cycle. `tower` holds all numbers.
 #[must_use]
 pub fn one_cycle<R: Decidable>(equations: &Equations<Isotropic<R>>, tower: &Top) -> Solved<R> {
+    if let Some(open) = open_angles(equations) {
+        return open;
+    }
     let c = &equations.cycles[0];
     match (equations.classes, equations.slides.as_slice()) {
         (3, []) => three_turns(c, tower),
@@ -151,7 +164,7 @@ pub fn one_cycle<R: Decidable>(equations: &Equations<Isotropic<R>>, tower: &Top)
                 slide_on_turn(&c[0], &c[1], u, tower)
             }
         }
-        (1, [one, two]) => two_slides(&c[0], &one.coefficients[0], &two.coefficients[0]),
+        (1, _) => slides_alone(equations),
         _ => Solved::Undecided("this group of one cycle has no known form".to_owned()),
     }
 }
@@ -201,7 +214,12 @@ fn coincident<R: Decidable>(c: &[Isotropic<R>], zero: [bool; 3]) -> Solved<R> {
             let turns = vec![Isotropic::one(), turned(&x, &by, turns[0]), turned(&y, &by, turns[1])];
             Root { turns, shifts: Vec::new(), multiplicity: 1 }
         };
-        Solved::Curve(samples().map(one).to_vec())
+        let turning: Vec<usize> = (0..2).filter(|k| turns[*k]).map(|k| k + 1).collect();
+        let flag = |class: usize, moving: &[usize]| f64::from(u8::from(moving.contains(&class)));
+        let way = |moving: &[usize]| (0..3).map(|class| flag(class, moving)).collect();
+        // Where all three joints coincide, both links turn by themselves.
+        let ways = if zero == [true; 3] { vec![way(&[1]), way(&[2])] } else { vec![way(&turning)] };
+        Solved::Moving(Moving { samples: samples().map(one).to_vec(), ways })
     };
     let same = |a: usize, b: usize| square(&c[a]).sub(&square(&c[b])).vanishes();
     let quotient = |a: usize, b: usize| c[b].z.inverse().map(|inverse| c[a].z.mul(&inverse).neg()).and_then(rotation);
@@ -263,7 +281,8 @@ fn with_slide<R: Decidable>(
             let shifts = vec![scalar(&fixed.z.mul(inverse).neg())];
             let one =
                 |by: Isotropic<R>| Root { turns: vec![Isotropic::one(), by], shifts: shifts.clone(), multiplicity: 1 };
-            Solved::Curve(samples().map(one).to_vec())
+            // The link turns alone, about a pin that the slide holds at the other one.
+            Solved::Moving(Moving { samples: samples().map(one).to_vec(), ways: vec![vec![0.0, 1.0, 0.0]] })
         }
         Ok(Some(found)) => {
             let mut list = Vec::new();
@@ -273,29 +292,6 @@ fn with_slide<R: Decidable>(
                 list.push(Root { turns: vec![Isotropic::one(), x], shifts, multiplicity });
             }
             Solved::Roots(list)
-        }
-    }
-}
-
-/// `c0 + u s + v t = 0`: two slides and no rotation.
-fn two_slides<R: Decidable>(c0: &Isotropic<R>, u: &Isotropic<R>, v: &Isotropic<R>) -> Solved<R> {
-    let determinant = u.z.mul(&v.w).sub(&u.w.mul(&v.z));
-    let off = [c0.z.mul(&v.w).sub(&c0.w.mul(&v.z)), u.z.mul(&c0.w).sub(&u.w.mul(&c0.z))];
-    match determinant.vanishes() {
-        None => undecided("the angle between two slides"),
-        Some(true) => match off[0].vanishes() {
-            None => undecided("the distance of two parallel slides"),
-            Some(false) => Solved::Roots(Vec::new()),
-            Some(true) => {
-                let Some(inverse) = u.z.inverse() else { return undecided("the direction of a slide") };
-                let shifts = vec![scalar(&c0.z.mul(&inverse).neg()), Isotropic::zero()];
-                Solved::Curve(vec![Root { turns: vec![Isotropic::one()], shifts, multiplicity: 1 }])
-            }
-        },
-        Some(false) => {
-            let Some(inverse) = determinant.inverse() else { return undecided("the angle between two slides") };
-            let shifts = off.iter().map(|x| scalar(&x.mul(&inverse).neg())).collect();
-            Solved::Roots(vec![Root { turns: vec![Isotropic::one()], shifts, multiplicity: 1 }])
         }
     }
 }

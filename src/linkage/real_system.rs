@@ -130,8 +130,9 @@ impl RealSystem {
             equations: Vec::new(),
             spinning,
         };
-        if solved.pivots().contains(&columns.linear) {
-            // The linear equations contradict one another.
+        let is_open = equations.angles.iter().any(|gap| !gap.is_zero());
+        if is_open || solved.pivots().contains(&columns.linear) {
+            // The linear equations contradict one another, or a cycle of slides does not close in its angles.
             system.equations.push(Equation::one());
         }
         let bent = (0..equations.loops()).filter(|k| !is_linear(*k));

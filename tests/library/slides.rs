@@ -132,3 +132,67 @@ fn slides_in_bodies_that_turn_are_solved() {
         assert!(open == 0, "{slides}: {complete} complete, {open} open");
     }
 }
+
+/// A linkage of slides alone between the ground, `a`, `b` and so on, with directions [x, y] in the first body of each.
+fn sliding(slides: &[(&str, &str, [i32; 2])], more: &str, given: &str) -> String {
+    let mut text = "[mechanism]\nkind = \"linkage\"\nspace = \"plane\"\nground = \"g\"\njoints = [\n".to_owned();
+    let mut bodies = std::collections::BTreeMap::<&str, Vec<usize>>::new();
+    for (k, (first, second, [x, y])) in slides.iter().enumerate() {
+        writeln!(text, "{{ name = \"p{k}\", type = \"P\", of = [\"{first}\", \"{second}\"], along = [{x}, {y}] }},")
+            .unwrap();
+        bodies.entry(first).or_default().push(k);
+        bodies.entry(second).or_default().push(k);
+    }
+    writeln!(text, "{more}]\n[mechanism.bodies]").unwrap();
+    for (body, joints) in bodies {
+        // Points apart, so that no displacement is 0 by chance.
+        let place = |k: &usize| format!("p{k} = [{}, {}]", k + 1, 2 * k);
+        let points: Vec<String> = joints.iter().map(place).collect();
+        let pins = if more.is_empty() { "" } else { ", pin = [7, 3]" };
+        writeln!(text, "{body} = {{ {}{pins} }}", points.join(", ")).unwrap();
+    }
+    text + given
+}
+
+#[test]
+fn a_cycle_of_slides_alone_is_linear() {
+    let triangle = [("g", "a", [1, 0]), ("g", "b", [0, 1]), ("a", "b", [3, 4])];
+    let free = solved(&sliding(&triangle, "", ""));
+    assert_eq!((free.verdict.status, free.verdict.proof), (Status::SelfMotion, Proof::Proved));
+    assert_eq!((free.verdict.self_motion, free.families[0].joints.as_slice()), (1, [0, 1, 2].as_slice()));
+    assert!(free.families[0].sample.residual < 1e-12);
+
+    let held = solved(&sliding(&triangle, "", "[[input]]\ngiven = { p0 = 3 }\n"));
+    assert_eq!((held.verdict.status, held.verdict.proof), (Status::Complete, Proof::Proved));
+    assert_eq!(held.modes.len(), 1);
+    // All points agree but for the displacements: 3 (1, 0) + s (3, 4)/5 = t (0, 1) + the way from p0 to p1.
+    let value = |k: usize| held.modes[0].joints[k].unwrap().re;
+    assert!((3.0 * 5.0 + 3.0 * value(2)).abs() < 1e-12 && (value(1) - 0.8 * value(2)).abs() < 1e-12);
+
+    // Two parallel slides move along one another, the third stands.
+    let parallel = solved(&sliding(&[("g", "a", [1, 0]), ("g", "b", [2, 0]), ("a", "b", [1, 1])], "", ""));
+    assert_eq!((parallel.verdict.self_motion, parallel.families[0].joints.as_slice()), (1, [0, 1].as_slice()));
+
+    let ring = [("g", "a", [1, 0]), ("a", "b", [0, 1]), ("b", "c", [3, 4]), ("c", "g", [1, 2])];
+    let four = solved(&sliding(&ring, "", "[[input]]\ngiven = { p1 = 1 }\n"));
+    assert_eq!((four.verdict.self_motion, four.verdict.proof), (1, Proof::Proved));
+    let both = solved(&sliding(&ring, "", "[[input]]\ngiven = { p1 = 1, p2 = 2 }\n"));
+    assert_eq!((both.verdict.status, both.verdict.real, both.verdict.proof), (Status::Complete, 1, Proof::Proved));
+}
+
+#[test]
+fn a_cycle_of_slides_whose_angles_do_not_close_has_no_assembly() {
+    let text = sliding(&[("g", "a", [1, 0]), ("g", "b", [0, 1]), ("a", "b", [3, 4])], "", "");
+    let turned = text.replace("along = [3, 4]", "along = [[3, 4], [4, 3]]");
+    let answer = solved(&turned);
+    assert_eq!((answer.verdict.status, answer.verdict.proof), (Status::Unreachable, Proof::Proved));
+}
+
+#[test]
+fn a_bar_that_holds_a_cycle_of_slides_is_solved_with_it() {
+    let triangle = [("g", "a", [1, 0]), ("g", "b", [0, 1]), ("a", "b", [3, 4])];
+    let bar = "{ name = \"bar\", type = \"RR\", of = [\"a\", \"b\"], at = \"pin\", length = 5 },\n";
+    let answer = solved(&sliding(&triangle, bar, ""));
+    assert_eq!((answer.verdict.status, answer.verdict.proof), (Status::Complete, Proof::Proved));
+    assert_eq!((answer.verdict.complex, answer.verdict.real), (2, 2));
+}

@@ -7,10 +7,11 @@ mod system;
 use super::spatial::Shafts;
 use crate::catalogue::{LinkageConfiguration, LinkageFile};
 use crate::error::{Error, Result};
-use crate::kinematics::linkage::{Accuracy, Gaussian, Given, Linkage, Pair};
+use crate::kinematics::linkage::{Accuracy, Gaussian, Given, Linkage, LinkageJoint, Pair};
 use crate::linkage::answer::solve;
 use crate::linkage::assembly::{Link, glued};
 use crate::linkage::groups::{Groups, groups};
+use crate::linkage::straight::with_slides;
 use crate::verdict::{Code, Proof};
 pub use motion::solve_or_move;
 use rug::Rational;
@@ -188,7 +189,7 @@ fn somewhere(linkage: &Linkage, exact: bool) -> Result<LinkageMobility> {
         );
         return Ok(answer(None, Proof::None, Code::NotDecided, reason));
     }
-    let freedoms = counted.freedoms;
+    let freedoms = freedoms_of(&counted);
     if linkage.joints.len() + 1 == linkage.bodies.len() {
         let reason = "the bodies form a tree, whose joints nothing binds".to_owned();
         return Ok(answer(Some(freedoms), Proof::Proved, Code::OpenChain, reason));
@@ -201,8 +202,8 @@ fn somewhere(linkage: &Linkage, exact: bool) -> Result<LinkageMobility> {
         }
         let trial = [held.clone(), vec![joint]].concat();
         let found = grouped(linkage, &trial)?;
-        if found.freedoms < left && found.list.iter().all(|group| group.count >= 0) {
-            left = found.freedoms;
+        if freedoms_of(&found) < left && found.list.iter().all(|group| group.count >= 0) {
+            left = freedoms_of(&found);
             held = trial;
         }
     }
@@ -241,14 +242,23 @@ fn regular(
         );
         return answer(Some(freedoms), Proof::Proved.of_rounded(!exact), Code::RegularConfiguration, reason);
     }
+    if freedoms > 0 && linkage.joints.iter().all(LinkageJoint::is_prismatic) {
+        let reason = format!("{manifold}; all equations of slides alone are linear, so that these are all assemblies");
+        return answer(Some(freedoms), Proof::Proved.of_rounded(!exact), Code::RegularConfiguration, reason);
+    }
     let reason = format!("{manifold}; that no other assemblies move in more dimensions is not proved");
     answer(Some(freedoms), Proof::None, Code::NotDecided, reason)
+}
+
+/// The freedoms that are left by count, with those of cycles of slides alone.
+fn freedoms_of(groups: &Groups) -> usize {
+    groups.freedoms + groups.list.iter().map(|group| usize::try_from(group.count).unwrap_or(0)).sum::<usize>()
 }
 
 fn grouped(linkage: &Linkage, held: &[usize]) -> Result<Groups> {
     let given: Vec<Given> = held.iter().map(|joint| given(linkage, *joint, 0)).collect();
     let (merged, links): (_, Vec<Link>) = glued(linkage, &given)?;
-    Ok(groups(linkage.bodies.len(), &links, merged))
+    Ok(with_slides(linkage, &links, groups(linkage.bodies.len(), &links, merged.clone()), &merged))
 }
 
 /// Returns a value of a joint.
