@@ -10,7 +10,7 @@ use crate::algebra::number::{Angle, Number, Quantity, Reading};
 use crate::algebra::ring::{Ring, exact_cos_sin};
 use crate::algebra::sort;
 use crate::error::Result;
-use crate::kinematics::linkage::{Accuracy, Body, Gaussian, Given, Linkage, LinkageJoint, Pair};
+use crate::kinematics::linkage::{Accuracy, Bar, Body, Gaussian, Given, Linkage, LinkageJoint, Pair};
 use rug::{Integer, Rational};
 use std::collections::{HashMap, HashSet};
 
@@ -30,6 +30,8 @@ pub struct LinkageFile {
     pub traces: Vec<TraceClaim>,
     /// Whether every number of bodies and joints is exact.
     pub exact: bool,
+    /// Whether lengths of bars were rounded whose squares are exact, and all other numbers of bodies and joints are exact.
+    pub squared: bool,
     /// Where the bodies stand, for questions about one assembly.
     pub configuration: Option<LinkageConfiguration>,
     /// Masses and gravity.
@@ -42,7 +44,11 @@ impl LinkageFile {
     /// Returns what is known of all numbers of a case.
     #[must_use]
     pub fn accuracy(&self, case: &LinkageCase) -> Accuracy {
-        if self.exact { case.accuracy } else { Accuracy::Rounded }
+        match (self.exact, self.squared) {
+            (true, _) => case.accuracy,
+            (false, true) => case.accuracy.and(Accuracy::Squared),
+            (false, false) => Accuracy::Rounded,
+        }
     }
 
     /// Returns the given values of a case, and what is known of these and of the numbers of the linkage.
@@ -128,15 +134,22 @@ pub(super) fn linkage(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<
     let keys = ["kind", "space", "ground", "joints", "bodies", "mass", "gravity"];
     let mechanism = scope.table(node, "the [mechanism] of a linkage", &keys)?;
     scope.word(scope.need(&mechanism, "space")?, "space", &["plane", "sphere", "space"])?;
-    let mut reader =
-        Reader { scope, bodies: Vec::new(), places: HashMap::new(), joints: Vec::new(), names: HashSet::new() };
+    let mut reader = Reader {
+        scope,
+        bodies: Vec::new(),
+        places: HashMap::new(),
+        joints: Vec::new(),
+        names: HashSet::new(),
+        bars: Vec::new(),
+    };
     reader.bodies(scope.need(&mechanism, "bodies")?)?;
     let ground = reader.body(scope.need(&mechanism, "ground")?)?;
     reader.joints(scope.need(&mechanism, "joints")?, ground)?;
-    let linkage = Linkage { ground, bodies: reader.bodies, joints: reader.joints };
+    let linkage = Linkage { ground, bodies: reader.bodies, joints: reader.joints, bars: reader.bars };
     joined(scope, &linkage)?;
     joined_once(scope, &linkage)?;
-    let exact = !scope.is_rounded();
+    let squared = !scope.is_rounded();
+    let exact = squared && linkage.bars.is_empty();
     let mut cases = Vec::new();
     if let Some(inputs) = table.get("input") {
         for input in scope.list(inputs, "input")? {
@@ -170,7 +183,17 @@ pub(super) fn linkage(scope: &mut Scope<'_>, root: &Node, name: &str) -> Result<
     };
     let configuration = table.get("configuration").map(|node| configuration(scope, node, &linkage)).transpose()?;
     let masses = masses(scope, &mechanism, &linkage)?;
-    Ok(LinkageFile { heading, linkage, cases, traces, exact, configuration, masses, reading: scope.reading.clone() })
+    Ok(LinkageFile {
+        heading,
+        linkage,
+        cases,
+        traces,
+        exact,
+        squared,
+        configuration,
+        masses,
+        reading: scope.reading.clone(),
+    })
 }
 
 /// Reads a claim about the curve of a point, `BODY.POINT`.
@@ -246,6 +269,7 @@ struct Reader<'a, 's> {
     places: HashMap<String, usize>,
     joints: Vec<LinkageJoint>,
     names: HashSet<String>,
+    bars: Vec<Bar>,
 }
 
 impl Reader<'_, '_> {
@@ -440,7 +464,7 @@ impl Reader<'_, '_> {
             }
             "RR" => {
                 let node = scope.need(&table, "length")?;
-                let length = scope.length(node, "length")?;
+                let length = scope.rooted(node, "length")?;
                 if *length.rational() <= 0 {
                     return Err(scope.fail(
                         node.line,
@@ -450,6 +474,10 @@ impl Reader<'_, '_> {
                 let end = Gaussian { re: length.rational().clone(), im: Rational::new() };
                 let points = vec![("first".to_owned(), origin()), ("second".to_owned(), end.clone())];
                 let bar = self.add(Body { name: name.clone(), points, line });
+                if !length.is_exact() && length.squared().is_exact() {
+                    let square = length.squared().rational().clone();
+                    self.bars.push(Bar { bodies: vec![bar], length: length.rational().clone(), square });
+                }
                 self.push(revolute(format!("{name}.first"), [of[0], bar], [first_at, origin()]))?;
                 self.push(revolute(format!("{name}.second"), [bar, of[1]], [end, second_at]))
             }
@@ -619,7 +647,8 @@ fn given_joint(scope: &Scope<'_>, linkage: &Linkage, joint: usize, node: &Node, 
         let square = Rational::from(along.re.square_ref()) + Rational::from(along.im.square_ref());
         let exact = value.is_exact() && root(&square).1;
         scope.note(exact);
-        return Ok((Given::Shift { joint, shift: Rational::from(value.rational() / length), line }, exact));
+        let square = linkage.leg_square(joint, &value);
+        return Ok((Given::Shift { joint, shift: Rational::from(value.rational() / length), square, line }, exact));
     }
     if own.is_gear() {
         return Err(
@@ -637,7 +666,7 @@ fn case(scope: &Scope<'_>, node: &Node, linkage: &Linkage) -> Result<LinkageCase
     let mut given = Vec::new();
     let mut accuracy = Accuracy::Exact;
     let mut add = |(one, is_exact): (Given, bool)| {
-        accuracy = accuracy.max(one.accuracy(is_exact));
+        accuracy = accuracy.and(one.accuracy(is_exact));
         given.push(one);
     };
     if let Some(list) = table.get("given") {

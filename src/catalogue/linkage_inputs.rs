@@ -118,14 +118,22 @@ impl LinkageFile {
                 (Pair::Prismatic { along, length, .. }, InputValue::Distance(distance)) => {
                     let square = Rational::from(along.re.square_ref()) + Rational::from(along.im.square_ref());
                     let exact = distance.is_exact() && root(&square).1;
-                    (Given::Shift { joint, shift: Rational::from(distance.rational() / length), line }, exact)
+                    (
+                        Given::Shift {
+                            joint,
+                            shift: Rational::from(distance.rational() / length),
+                            square: self.linkage.leg_square(joint, distance),
+                            line,
+                        },
+                        exact,
+                    )
                 }
                 (Pair::Revolute, InputValue::Angle(angle)) => given_turn(joint, angle, line),
                 _ => return Err(Error::Invalid(format!("found a value of another kind for the joint {name}"))),
             };
             let is_other = |one: &Given| !matches!(one, Given::Turn { joint: old, .. } | Given::Shift { joint: old, .. } if *old == joint);
             case.given.retain(is_other);
-            case.accuracy = case.accuracy.max(given.accuracy(exact));
+            case.accuracy = case.accuracy.and(given.accuracy(exact));
             case.given.push(given);
         }
         Ok(case)

@@ -158,7 +158,7 @@ fn about_one_point(links: &Links) -> Option<Links> {
 pub fn data_of_turning_linkage(file: &LinkageFile, joint: usize) -> Result<Value, String> {
     let (linkage, case) = (&file.linkage, file.cases.first().ok_or("there is no case")?);
     // The value of the input itself may be any angle.
-    if file.accuracy(case) == Accuracy::Rounded {
+    if file.accuracy(case) >= Accuracy::Squared {
         return Err(IRRATIONAL.to_owned());
     }
     if case.given.iter().any(|given| given.joint() != Some(joint)) {

@@ -1,6 +1,8 @@
 //! Planar linkages: a graph of bodies with points and of joints between them.
 
 use crate::algebra::enclosure::Enclosure;
+use crate::algebra::number::Number;
+use crate::algebra::ring::Ring;
 use num_complex::Complex;
 use rug::Rational;
 
@@ -89,6 +91,52 @@ pub struct Linkage {
     pub bodies: Vec<Body>,
     /// The joints.
     pub joints: Vec<LinkageJoint>,
+    /// The bars whose length is the square root of a rational number and was rounded.
+    pub bars: Vec<Bar>,
+}
+
+impl Linkage {
+    /// Returns the square of a displacement of the P joint of a leg, where that is rational and the displacement itself is not.
+    #[must_use]
+    pub fn leg_square(&self, joint: usize, distance: &Number) -> Option<Rational> {
+        let square = distance.squared();
+        (self.is_leg(joint) && !distance.is_exact() && square.is_exact()).then(|| square.rational().clone())
+    }
+
+    /// The joints of a body.
+    pub fn joints_of(&self, body: usize) -> impl Iterator<Item = &LinkageJoint> {
+        self.joints.iter().filter(move |joint| joint.of.contains(&body))
+    }
+
+    /// Whether a joint is the P joint of a leg: each of its bodies has one pin beside it, and both pins stand on its line.
+    fn is_leg(&self, joint: usize) -> bool {
+        let own = &self.joints[joint];
+        let Pair::Prismatic { turn, along, length } = &own.pair else { return false };
+        let is_half = |body: usize| {
+            let mut pins = self.joints_of(body).filter(|other| other.name != own.name);
+            let pin = pins.next();
+            let is_at_origin =
+                |pin: &LinkageJoint| pin.pair == Pair::Revolute && pin.at[usize::from(pin.of[0] != body)].is_zero();
+            pin.is_some_and(is_at_origin) && pins.next().is_none()
+        };
+        *turn == Gaussian::one()
+            && *along == Gaussian::one()
+            && *length == 1
+            && own.at.iter().all(Ring::is_zero)
+            && own.of.into_iter().all(is_half)
+    }
+}
+
+/// A link between two pins whose distance was rounded, while its square is rational. Nothing but the square has a part in the closure
+/// equations where no angle of the link is given.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bar {
+    /// Its bodies: the link, or the two halves of a leg. Their pins stand on the x axis of the first, one at its origin.
+    pub bodies: Vec<usize>,
+    /// The distance of its pins as it was rounded.
+    pub length: Rational,
+    /// The square of their distance.
+    pub square: Rational,
 }
 
 /// A measure of what is known of the numbers of a linkage and its inputs.
@@ -98,8 +146,22 @@ pub enum Accuracy {
     Exact,
     /// All are exact but angles of inputs, which are enclosed.
     Enclosed,
+    /// All are exact but lengths of bars and legs, whose squares are.
+    Squared,
     /// Some were rounded.
     Rounded,
+}
+
+impl Accuracy {
+    /// What is known of all numbers of two kinds.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        match (self, other) {
+            // What is decided with squares takes no enclosures.
+            (Self::Enclosed, Self::Squared) | (Self::Squared, Self::Enclosed) => Self::Rounded,
+            _ => self.max(other),
+        }
+    }
 }
 
 /// A value of a linkage that is given as input.
@@ -122,6 +184,8 @@ pub enum Given {
         joint: usize,
         /// The displacement.
         shift: Rational,
+        /// Its square, where that is rational and the displacement itself was rounded.
+        square: Option<Rational>,
         /// Line of the file, from 1.
         line: usize,
     },
@@ -160,7 +224,7 @@ impl Given {
             }
             Self::Shift { joint, line, .. } => {
                 let Pair::Prismatic { length, .. } = &linkage.joints[*joint].pair else { return None };
-                Some(Self::Shift { joint: *joint, shift: Rational::from(value / length), line: *line })
+                Some(Self::Shift { joint: *joint, shift: Rational::from(value / length), square: None, line: *line })
             }
             Self::Place { .. } => None,
         }
@@ -172,6 +236,7 @@ impl Given {
         match self {
             _ if is_exact => Accuracy::Exact,
             Self::Turn { within: Some(_), .. } => Accuracy::Enclosed,
+            Self::Shift { square: Some(_), .. } => Accuracy::Squared,
             Self::Turn { .. } | Self::Shift { .. } | Self::Place { .. } => Accuracy::Rounded,
         }
     }

@@ -1,6 +1,8 @@
 //! The answer to one case of a linkage: its assemblies as numbers, and the verdict on their list.
 
-use super::assembly::{Asked, Assemblies, Family, FamilyKind, Route, Solution, assemblies, assemblies_within};
+use super::assembly::{
+    Asked, Assemblies, Family, FamilyKind, Route, Solution, assemblies, assemblies_of_squares, assemblies_within,
+};
 use super::isotropic::{Value, middle};
 use super::near::sort_near;
 use super::rates::{movable, resting};
@@ -103,6 +105,9 @@ pub fn solve_asked(linkage: &Linkage, given: &[Given], accuracy: Accuracy, asked
     // What discs decide holds for the angles themselves; where they leave a doubt, or ends coincide, the rounded ones are taken.
     let within = if accuracy == Accuracy::Enclosed { Some(assemblies_within(linkage, given, asked)?) } else { None };
     let within = within.filter(|found| found.doubt.is_none() && found.curves.is_empty() && !found.is_probable);
+    let squared = if accuracy == Accuracy::Squared { assemblies_of_squares(linkage, given, asked)? } else { None };
+    let squared = squared.filter(|found| found.doubt.is_none() && !found.is_probable && !found.only_real);
+    let within = within.or(squared);
     let (found, exact) = match within {
         Some(within) if !within.only_real => (within, true),
         within => {

@@ -1,5 +1,6 @@
 //! All assemblies of a linkage: its groups solved one after the other, branch by branch.
 
+use super::bars::square;
 use super::boxes::{LONG, RealAssemblies, SHORT, real_assemblies};
 use super::equations::{Closure, Equations};
 use super::exact_group::{Decided, decided};
@@ -267,6 +268,20 @@ pub fn assemblies_within(linkage: &Linkage, given: &[Given], asked: Asked<'_>) -
     placed(linkage, given, place_within, asked)
 }
 
+/// All assemblies, where lengths of bars and legs were rounded whose squares are exact; `None` where angles of these are given.
+///
+/// # Errors
+/// As [`groups_of`].
+pub fn assemblies_of_squares(linkage: &Linkage, given: &[Given], asked: Asked<'_>) -> Result<Option<Assemblies>> {
+    let groups = groups_of(linkage, given)?;
+    let mut start = State::new(linkage.bodies.len(), SHALLOW);
+    if !square(linkage, given, &mut start) {
+        return Ok(None);
+    }
+    glue(linkage, given, place_of, &mut start)?;
+    by_groups(linkage, &groups.list, &start, asked).map(Some)
+}
+
 /// All assemblies, where `place` is that of the second body of an input against the first.
 fn placed(
     linkage: &Linkage,
@@ -275,11 +290,15 @@ fn placed(
     asked: Asked<'_>,
 ) -> Result<Assemblies> {
     let groups = groups_of(linkage, given)?;
-    let start = started(linkage, given, place)?;
-    let shallow = attempt(linkage, &start, &groups.list, SHALLOW, true, asked)?;
+    by_groups(linkage, &groups.list, &started(linkage, given, place)?, asked)
+}
+
+/// All assemblies from the branch in which inputs are placed.
+fn by_groups(linkage: &Linkage, groups: &[Group], start: &State, asked: Asked<'_>) -> Result<Assemblies> {
+    let shallow = attempt(linkage, start, groups, SHALLOW, true, asked)?;
     // Square roots are kept as such only where a disc about zero decides nothing.
-    if shallow.doubt.is_some() && groups.list.iter().any(|group| group.clusters.len() <= 3) {
-        let deep = attempt(linkage, &start, &groups.list, DEEP, true, asked)?;
+    if shallow.doubt.is_some() && groups.iter().any(|group| group.clusters.len() <= 3) {
+        let deep = attempt(linkage, start, groups, DEEP, true, asked)?;
         if deep.doubt.is_none() {
             return Ok(deep);
         }
@@ -324,6 +343,17 @@ pub(super) fn started<R: Half>(
     place: impl Fn(&Linkage, &Given) -> Option<Place<R>>,
 ) -> Result<State<R>> {
     let mut start = State::new(linkage.bodies.len(), SHALLOW);
+    glue(linkage, given, place, &mut start)?;
+    Ok(start)
+}
+
+/// Glues the bodies that inputs hold together.
+fn glue<R: Half>(
+    linkage: &Linkage,
+    given: &[Given],
+    place: impl Fn(&Linkage, &Given) -> Option<Place<R>>,
+    start: &mut State<R>,
+) -> Result<()> {
     for one in given {
         let [a, b] = one.bodies(linkage);
         let Some(place) = place(linkage, one) else {
@@ -331,7 +361,7 @@ pub(super) fn started<R: Half>(
         };
         start.glue(a, b, &place);
     }
-    Ok(start)
+    Ok(())
 }
 
 /// Solves groups one after the other. `follows` says whether groups that stand on one that moves are solved, too.
@@ -426,12 +456,19 @@ fn branch(at: Branch<'_>, solution: &mut Solution, next: &mut Vec<State>, found:
         add(slides_alone(equations), at, solution, next, found);
         return;
     }
-    if !equations.angles.is_empty() {
-        // Cycles of slides alone leave more unknowns than equations: no pencil has them.
+    if !equations.angles.is_empty() || equations.has_squares() {
+        // Cycles of slides alone leave more unknowns than equations, and bars by their squares are not real in a pencil.
+        if found.doubt.is_some() && equations.has_squares() {
+            // The whole attempt is in doubt, and another branch would take as much work.
+            return;
+        }
         match decided(equations) {
             Some(decided) => by_basis(decided, &[], at, solution, next, found),
             None => {
-                found.doubt.get_or_insert(format!("cycles of slides in a group of {} bodies", group.clusters.len()));
+                let size = group.clusters.len();
+                found
+                    .doubt
+                    .get_or_insert(format!("a group of {size} bodies with cycles of slides takes too much work"));
             }
         }
         return;
@@ -644,7 +681,7 @@ fn add(solved: Solved, at: Branch<'_>, solution: &mut Solution, next: &mut Vec<S
             found.curves.push(Family { samples, ..family });
         }
         Solved::Roots(roots) => {
-            let real = realness(&roots);
+            let real = realness(&roots, &closure.equations.squares);
             if state.real && real.iter().all(|real| *real == Some(false)) {
                 found.note_gap(&closure.equations);
             }
@@ -683,7 +720,7 @@ fn dyad_gap(equations: &Equations<Number>) -> Option<f64> {
     if !equations.slides.is_empty() {
         return None;
     }
-    let lengths: Vec<f64> = cycle.iter().map(|n| n.z.middle().norm()).collect();
+    let lengths: Vec<f64> = cycle.iter().map(|n| (n.z.middle().norm() * n.w.middle().norm()).sqrt()).collect();
     let longest = lengths.iter().copied().fold(0.0, f64::max);
     Some((2.0 * longest - lengths.iter().sum::<f64>()).max(0.0))
 }

@@ -89,6 +89,7 @@ fn four_bar([a, d]: [&Gaussian; 2], crank: &Gaussian, [coupler, traced]: [&Gauss
             body("coupler", &[("B", &origin), ("C", coupler), ("P", traced)]),
             body("rocker", &[("D", &origin), ("C", rocker)]),
         ],
+        bars: Vec::new(),
         joints: vec![
             joint("A", [0, 1], [a, &origin]),
             joint("B", [1, COUPLER], [crank, &origin]),

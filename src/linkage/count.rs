@@ -119,7 +119,8 @@ impl<'a> Dyads<'a> {
             }
             Solved::Undecided(reason) => return Err(Halt::Undecided(reason)),
         };
-        let real = if state.real { realness(&roots) } else { vec![Some(false); roots.len()] };
+        let real =
+            if state.real { realness(&roots, &closure.equations.squares) } else { vec![Some(false); roots.len()] };
         let one = |(root, real): (Root<R>, Option<bool>)| {
             let Some(real) = real else { return left_open("an assembly is neither proved real nor proved complex") };
             // Nothing stands on the last group: it is counted where it is.

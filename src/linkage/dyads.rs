@@ -68,7 +68,7 @@ impl Dyads {
             let turn = Gaussian { re: Rational::from(1), im: zero };
             Given::Turn { joint, turn, within: None, line: 1 }
         } else {
-            Given::Shift { joint, shift: zero, line: 1 }
+            Given::Shift { joint, shift: zero, square: None, line: 1 }
         };
         let given: Vec<Given> = held.iter().cloned().chain([own]).collect();
         let groups = groups_of(linkage, &given).ok()?;

@@ -35,6 +35,9 @@ pub struct Equations<N> {
     /// For every cycle of slides alone what vanishes where their directions agree about the angles: nothing turns in it, and
     /// nothing can make up for a difference.
     pub angles: Vec<N>,
+    /// For every class the square of the length of the bar that it is, which is 1 of all others: where n is that, a rotation (z, w) is
+    /// real if z is the conjugate of w over n.
+    pub squares: Vec<Rational>,
 }
 
 /// The equations of a group of one branch, and what leads back from their solutions to the clusters.
@@ -143,7 +146,8 @@ impl<R: Half> Closure<R> {
     #[must_use]
     pub fn new(linkage: &Linkage, group: &Group, state: &State<R>) -> Option<Self> {
         let mut names: Vec<usize> = group.clusters.iter().map(|body| state.bodies[*body].0).collect();
-        names.sort_unstable();
+        // Bars that stand by the squares of their lengths are never at rest.
+        names.sort_unstable_by_key(|name| (state.square_of(*name) != 1, *name));
         names.dedup();
         let cluster_of = |body: usize| names.iter().position(|name| *name == state.bodies[body].0);
         let (class, classes, angles) = classes(linkage, group, state, &names)?;
@@ -205,9 +209,13 @@ impl<R: Half> Closure<R> {
                 slide.coefficients.push(coefficient);
             }
         }
+        let mut squares = vec![Rational::from(1); classes];
+        for (name, (class, _)) in names.iter().zip(&class) {
+            squares[*class] *= state.square_of(*name);
+        }
         let nodes = names.iter().zip(class).zip(origins);
         let clusters = nodes.map(|((name, (class, turn)), origin)| Node { name: *name, class, turn, origin }).collect();
-        Some(Self { equations: Equations { cycles, slides, classes, angles }, clusters })
+        Some(Self { equations: Equations { cycles, slides, classes, angles, squares }, clusters })
     }
 
     /// The class of the cluster in which a body is, and the rotation of the body against its class.
@@ -294,6 +302,12 @@ impl<N> Equations<N> {
         self.cycles.len()
     }
 
+    /// Whether bars stand by the squares of their lengths.
+    #[must_use]
+    pub fn has_squares(&self) -> bool {
+        self.squares.iter().any(|square| *square != 1)
+    }
+
     /// Maps the equations to other numbers; `None` as soon as one has no image.
     pub fn map<M>(&self, image: impl Fn(&N) -> Option<M>) -> Option<Equations<M>> {
         let all = |list: &Vec<N>| list.iter().map(&image).collect::<Option<Vec<M>>>();
@@ -305,7 +319,25 @@ impl<N> Equations<N> {
             slides: self.slides.iter().map(slide).collect::<Option<_>>()?,
             classes: self.classes,
             angles: all(&self.angles)?,
+            squares: self.squares.clone(),
         })
+    }
+}
+
+fn divided(z: &Gaussian, by: &Rational) -> Gaussian {
+    Gaussian { re: Rational::from(&z.re / by), im: Rational::from(&z.im / by) }
+}
+
+impl Equations<Isotropic<Gaussian>> {
+    /// The equations with rotations times the lengths of bars, where these stand by their squares: they are real for real data then.
+    #[must_use]
+    pub fn with_lengths(mut self) -> Self {
+        for cycle in &mut self.cycles {
+            for (number, square) in cycle.iter_mut().zip(&self.squares).filter(|(_, square)| **square != 1) {
+                *number = Isotropic { z: divided(&number.z, square), w: number.w.clone() };
+            }
+        }
+        self
     }
 }
 

@@ -107,8 +107,20 @@ pub(super) type Values = (Vec<Number>, Vec<Number>);
 /// Rotations and slides at rational values of the unknowns.
 pub(super) fn exactly(system: &RealSystem, values: &[Rational]) -> Values {
     let at = |equation: &Equation| equation.evaluate(values);
-    let turns = system.turns.iter().map(|turn| number(&Gaussian { re: at(&turn.re), im: at(&turn.im) }));
+    let turns = system.turns.iter().zip(&system.squares).map(|(turn, square)| {
+        let turn: Number = number(&Gaussian { re: at(&turn.re), im: at(&turn.im) });
+        over(turn, square)
+    });
     (turns.collect(), system.shifts.iter().map(|shift| real(&at(shift))).collect())
+}
+
+/// A rotation from one times the length of a bar that stands by its square.
+fn over(turn: Number, square: &Rational) -> Number {
+    if *square == 1 {
+        return turn;
+    }
+    let inverse = Value::from_rational(&Rational::from(square.recip_ref())).unwrap_or_else(Value::one);
+    Isotropic { z: turn.z.mul(&inverse), w: turn.w }
 }
 
 /// Rotations and slides at values of the unknowns of which discs are known.
@@ -120,5 +132,6 @@ pub(super) fn within(system: &RealSystem, values: &[Disc]) -> Values {
         Isotropic { z: Value::within(x.add(&y)), w: Value::within(x.sub(&y)) }
     };
     let slide = |at: Disc| Isotropic { z: Value::within(at.clone()), w: Value::within(at) };
-    (system.turns.iter().map(turn).collect(), system.shifts.iter().map(|shift| slide(at(shift))).collect())
+    let turns = system.turns.iter().zip(&system.squares).map(|(one, square)| over(turn(one), square));
+    (turns.collect(), system.shifts.iter().map(|shift| slide(at(shift))).collect())
 }

@@ -53,7 +53,7 @@ pub fn of_many(
             groups.len()
         ))),
     };
-    let rounded = Proof::Proved.of_rounded(accuracy == Accuracy::Rounded);
+    let rounded = Proof::Proved.of_rounded(accuracy >= Accuracy::Squared);
     let all_real = |states: &[State]| {
         let modes: Vec<LinkageMode> = states.iter().map(|state| mode(linkage, state)).collect();
         let real = modes.iter().map(|mode| mode.multiplicity).sum();

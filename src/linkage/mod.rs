@@ -9,6 +9,7 @@
 
 pub mod answer;
 pub mod assembly;
+mod bars;
 mod bounded_half;
 pub mod boxes;
 pub mod cognates;

@@ -8,6 +8,7 @@ use super::state::{Half, number};
 use super::straight::{open_angles, slides_alone};
 use super::tower::Surd;
 use crate::algebra::ring::Ring;
+use rug::Rational;
 
 /// A solution of a group: the rotations of its classes, the first of which is 1, and the displacements of its slides.
 #[derive(Clone, Debug)]
@@ -296,9 +297,10 @@ fn with_slide<R: Decidable>(
     }
 }
 
-/// Returns whether each root of a group with real data is real: its mirror image is a root, too. `None` where this is undecided.
+/// Returns whether each root of a group with real data is real: its mirror image is a root, too. `None` where this is undecided. `squares` are
+/// those of the lengths of bars, by class.
 #[must_use]
-pub fn realness<R: Decidable>(roots: &[Root<R>]) -> Vec<Option<bool>> {
+pub fn realness<R: Decidable>(roots: &[Root<R>], squares: &[Rational]) -> Vec<Option<bool>> {
     let all = |root: &Root<R>| root.turns.iter().chain(&root.shifts).cloned().collect::<Vec<Isotropic<R>>>();
     let apart = |one: &[Isotropic<R>], two: &[Isotropic<R>]| {
         one.iter().zip(two).any(|(a, b)| a.z.sub(&b.z).vanishes() == Some(false))
@@ -307,7 +309,12 @@ pub fn realness<R: Decidable>(roots: &[Root<R>]) -> Vec<Option<bool>> {
     // The mirror image of a number is the one of the conjugate assembly.
     let mirrored = |number: &Isotropic<R>| Isotropic { z: number.w.conjugate(), w: number.z.conjugate() };
     let one = |k: usize| {
-        let image: Vec<Isotropic<R>> = roots[k].iter().map(mirrored).collect();
+        let mut image: Vec<Isotropic<R>> = roots[k].iter().map(mirrored).collect();
+        for (turn, square) in image.iter_mut().zip(squares).filter(|(_, square)| **square != 1) {
+            let [over, by] = [Rational::from(square.recip_ref()), square.clone()]
+                .map(|q| R::from_rational(&q).unwrap_or_else(R::one));
+            *turn = Isotropic { z: turn.z.mul(&over), w: turn.w.mul(&by) };
+        }
         if apart(&image, &roots[k]) {
             return Some(false);
         }

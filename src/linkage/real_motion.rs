@@ -226,7 +226,9 @@ fn movers(system: &RealSystem, point: &Point) -> Vec<Moved> {
         list
     };
     let slides = sorted(classes..classes + system.shifts.len()).into_iter().map(|k| Moved::Slide(k - classes));
-    sorted(0..classes).into_iter().map(Moved::Class).chain(slides).collect()
+    // A bar that stands by the square of its length has no rational rotations to be held at.
+    let turning = sorted(0..classes).into_iter().filter(|class| system.squares[*class] == 1);
+    turning.map(Moved::Class).chain(slides).collect()
 }
 
 impl Moved {
@@ -272,7 +274,9 @@ fn real_member(system: &RealSystem, turns: &[Complex<f64>]) -> Option<(Root, boo
     if basis.dimension() != Some(0) {
         return None;
     }
-    let far = |root: &Root| middles(root).iter().zip(turns).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+    // Rotations of bars may have other norms than 1.
+    let apart = |a: &Complex<f64>, b: &Complex<f64>| (a / a.norm() - b / b.norm()).norm();
+    let far = |root: &Root| middles(root).iter().zip(turns).map(|(a, b)| apart(a, b)).fold(0.0, f64::max);
     let real: Vec<Root> =
         solutions(system, &basis)?.into_iter().filter(|(_, real)| *real).map(|(root, _)| root).collect();
     let is_simple = real.iter().any(|root| root.multiplicity == 1);

@@ -83,6 +83,8 @@ pub(super) struct RealSystem {
     pub shifts: Vec<Equation>,
     /// The polynomials that vanish at the assemblies, and at no other values.
     pub equations: Vec<Equation>,
+    /// The squares of the rotations of the classes: those of the lengths of bars that stand by these, and 1 of all others.
+    pub squares: Vec<Rational>,
     /// Classes that are in no cycle: bodies whose joints coincide. They turn freely, and stand here as they are in the file.
     pub spinning: Vec<usize>,
 }
@@ -90,6 +92,7 @@ pub(super) struct RealSystem {
 impl RealSystem {
     /// Returns the system of a group of real data; `None` for data of a complex branch, and for more unknowns than a basis may have.
     pub fn of(equations: &Equations<Isotropic<Gaussian>>) -> Option<Self> {
+        let equations = &equations.clone().with_lengths();
         if !is_real(equations) {
             return None;
         }
@@ -128,6 +131,7 @@ impl RealSystem {
             turns: (0..equations.classes).map(turn).collect(),
             shifts: (0..equations.slides.len()).map(shift).collect(),
             equations: Vec::new(),
+            squares: equations.squares.clone(),
             spinning,
         };
         let is_open = equations.angles.iter().any(|gap| !gap.is_zero());
@@ -141,7 +145,8 @@ impl RealSystem {
         }
         for class in (0..equations.classes).filter(|class| !still.contains(class)) {
             let Form { re, im } = &system.turns[class];
-            system.equations.push(re.mul(re).add(&im.mul(im)).sub(&Equation::one()));
+            let square = Equation::from_rational(&equations.squares[class]).unwrap_or_else(Equation::one);
+            system.equations.push(re.mul(re).add(&im.mul(im)).sub(&square));
         }
         system.equations.retain(|equation| !equation.is_zero());
         Some(system)

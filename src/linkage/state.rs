@@ -83,6 +83,8 @@ pub struct State<R = Value> {
     pub real: bool,
     /// The multiplicity of the branch.
     pub multiplicity: usize,
+    /// For every body the square of its length, where it is a bar that stands here by that alone.
+    pub squares: Vec<Option<Rational>>,
 }
 
 impl<R> State<R> {
@@ -91,7 +93,13 @@ impl<R> State<R> {
     pub fn map<S>(&self, image: impl Fn(&R) -> S) -> State<S> {
         let place = |place: &Place<R>| Place { turn: place.turn.map(&image), origin: place.origin.map(&image) };
         let bodies = self.bodies.iter().map(|(cluster, own)| (*cluster, place(own))).collect();
-        State { bodies, top: self.top.clone(), real: self.real, multiplicity: self.multiplicity }
+        State {
+            bodies,
+            top: self.top.clone(),
+            real: self.real,
+            multiplicity: self.multiplicity,
+            squares: self.squares.clone(),
+        }
     }
 }
 
@@ -99,9 +107,20 @@ impl<R: Ring> State<R> {
     /// Returns the state with every body on its own; square roots are kept exactly in towers of at most `highest` generators.
     #[must_use]
     pub fn new(bodies: usize, highest: usize) -> Self {
+        let squares = vec![None; bodies];
         let bodies = (0..bodies).map(|body| (body, Place::identity())).collect();
         let top = Top { number: Surd::rational(&Rational::from(1)), highest };
-        Self { bodies, top, real: true, multiplicity: 1 }
+        Self { bodies, top, real: true, multiplicity: 1, squares }
+    }
+
+    /// The square of the length of a bar that is a cluster by itself; 1 of other clusters.
+    #[must_use]
+    pub fn square_of(&self, cluster: usize) -> Rational {
+        let bodies = self.bodies.iter().zip(&self.squares).filter(|((own, _), _)| *own == cluster);
+        let mut squares = bodies.map(|(_, square)| square.as_ref());
+        let first = squares.next().flatten();
+        let is_bar = squares.all(|square| square == first);
+        first.filter(|_| is_bar).cloned().unwrap_or_else(|| Rational::from(1))
     }
 
     /// Moves the cluster of `second` so that the body `second` stands at `place` against the body `first`, and makes

@@ -149,6 +149,7 @@ impl TurnSystem {
             turns: self.turns.iter().map(turn).collect(),
             shifts: shifts.collect(),
             equations: list,
+            squares: vec![Rational::from(1); self.turns.len()],
             spinning: Vec::new(),
         })
     }

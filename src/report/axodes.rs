@@ -68,7 +68,7 @@ pub(super) fn given_of_plane(file: &LinkageFile, joint: usize) -> (Vec<Given>, u
     let mut given: Vec<Given> = file.cases[0].given.iter().filter(is_other).cloned().collect();
     let driven = freedoms(&given);
     given.push(if file.linkage.joints[joint].is_prismatic() {
-        Given::Shift { joint, shift: Rational::new(), line: 0 }
+        Given::Shift { joint, shift: Rational::new(), square: None, line: 0 }
     } else {
         Given::Turn { joint, turn: Gaussian { re: Rational::from(1), im: Rational::new() }, within: None, line: 0 }
     });

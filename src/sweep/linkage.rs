@@ -43,7 +43,7 @@ impl Run<'_> {
                 let metres = Rational::from_f64(input);
                 let metres =
                     metres.ok_or_else(|| Error::Invalid(format!("found the input {input}, expected a number")))?;
-                Given::Shift { joint, shift: metres / length, line }
+                Given::Shift { joint, shift: metres / length, square: None, line }
             }
             Pair::Gear { .. } => {
                 return Err(Error::Invalid("found gears as the input, expected a joint with a value".to_owned()));
@@ -164,7 +164,7 @@ fn is_rounded(held: &[Given], accuracy: Accuracy) -> bool {
     match accuracy {
         Accuracy::Exact => false,
         Accuracy::Enclosed => held.iter().any(|one| matches!(one, Given::Turn { within: Some(_), .. })),
-        Accuracy::Rounded => true,
+        Accuracy::Squared | Accuracy::Rounded => true,
     }
 }
 

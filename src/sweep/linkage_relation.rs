@@ -130,7 +130,7 @@ impl BodyRelations {
     /// The relations of a joint that runs, while other values are held; `None` where there is none that proves branches.
     pub fn of(linkage: &Linkage, held: &[Given], joint: usize) -> Option<Self> {
         let zero = if linkage.joints[joint].is_prismatic() {
-            Given::Shift { joint, shift: Rational::new(), line: 1 }
+            Given::Shift { joint, shift: Rational::new(), square: None, line: 1 }
         } else {
             let one = Gaussian { re: Rational::from(1), im: Rational::new() };
             Given::Turn { joint, turn: one, within: None, line: 1 }

@@ -25,6 +25,7 @@ mod linkage_derive;
 mod linkage_files;
 mod linkage_proof;
 mod linkage_singular;
+mod linkage_squares;
 mod linkage_sweep;
 mod metamorphic;
 mod mjcf;

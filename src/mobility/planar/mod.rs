@@ -12,7 +12,7 @@ use crate::linkage::answer::solve;
 use crate::linkage::assembly::{Link, glued};
 use crate::linkage::groups::{Groups, groups};
 use crate::linkage::straight::with_slides;
-use crate::verdict::{Code, Proof};
+use crate::verdict::{Code, Proof, Status, Verdict};
 pub use motion::solve_or_move;
 use rug::Rational;
 use series::Local;
@@ -68,7 +68,7 @@ pub fn planar_mobility(file: &LinkageFile) -> Result<LinkageMobility> {
     }
     match &file.configuration {
         Some(configuration) => at(&file.linkage, configuration, file.exact && configuration.exact),
-        None => somewhere(&file.linkage, file.exact),
+        None => somewhere(&file.linkage, accuracy(file)),
     }
 }
 
@@ -166,8 +166,18 @@ fn at(linkage: &Linkage, configuration: &LinkageConfiguration, exact: bool) -> R
 /// Half-angle tangents and displacements tried for the joints that are held.
 const TRIED: [[i32; 2]; 10] = [[1, 2], [-1, 2], [2, 1], [-2, 1], [1, 5], [-1, 5], [1, 1], [-1, 1], [5, 1], [-5, 1]];
 
+/// What is known of the numbers of a file.
+fn accuracy(file: &LinkageFile) -> Accuracy {
+    match (file.exact, file.squared) {
+        (true, _) => Accuracy::Exact,
+        (false, true) => Accuracy::Squared,
+        (false, false) => Accuracy::Rounded,
+    }
+}
+
 /// Holds as many joints as the linkage has freedoms by count, and looks for a real assembly.
-fn somewhere(linkage: &Linkage, exact: bool) -> Result<LinkageMobility> {
+fn somewhere(linkage: &Linkage, accuracy: Accuracy) -> Result<LinkageMobility> {
+    let exact = accuracy == Accuracy::Exact;
     let gruebler = gruebler(linkage);
     let counted = grouped(linkage, &[])?;
     let answer = |mobility: Option<usize>, proof: Proof, code: Code, reason: String| LinkageMobility {
@@ -210,7 +220,11 @@ fn somewhere(linkage: &Linkage, exact: bool) -> Result<LinkageMobility> {
     for k in 0..TRIED.len() {
         let given: Vec<Given> =
             held.iter().enumerate().map(|(place, joint)| given(linkage, *joint, k + 3 * place)).collect();
-        let Ok(found) = solve(linkage, &given, Accuracy::Exact) else { continue };
+        let Ok(found) = solve(linkage, &given, accuracy) else { continue };
+        let Verdict { status, proof, self_motion, .. } = found.verdict;
+        if freedoms == 0 && status == Status::SelfMotion && proof != Proof::None {
+            return Ok(answer(Some(self_motion), proof, Code::SelfMotion, found.verdict.reason));
+        }
         if found.modes.iter().any(|mode| mode.real && mode.multiplicity == 1) {
             return Ok(regular(linkage, freedoms, exact, &answer));
         }
@@ -266,7 +280,7 @@ fn given(linkage: &Linkage, joint: usize, number: usize) -> Given {
     let [a, b] = TRIED[number % TRIED.len()];
     let value = Rational::from((a, b));
     if let Pair::Prismatic { length, .. } = &linkage.joints[joint].pair {
-        return Given::Shift { joint, shift: value / length, line: 1 };
+        return Given::Shift { joint, shift: value / length, square: None, line: 1 };
     }
     let square = Rational::from(value.square_ref());
     let whole = Rational::from(&square + 1);
