@@ -7,7 +7,7 @@ use super::number::{counted, duration, short};
 use super::table::{Columns, paragraph};
 use crate::catalogue::{LinkageCase, LinkageFile};
 use crate::kinematics::linkage::{Given, Linkage, LinkageJoint};
-use crate::linkage::answer::{Coordinate, LinkageAnswer, LinkageMode};
+use crate::linkage::answer::{Coordinate, LinkageAnswer, LinkageFamily, LinkageMode};
 use crate::verdict::Verdict;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
@@ -97,10 +97,10 @@ pub fn result(file: &LinkageFile, case: &LinkageCase, index: usize, answer: &Lin
         json!({ "bodies": group.bodies.iter().map(names).collect::<Vec<_>>(), "count": group.count, "route": group.route })
     });
     let modes = (1..).zip(&answer.modes).filter(|(_, mode)| complex || mode.real);
-    let families = answer.families.iter().map(|family| {
+    let families = listed_families(answer, complex).map(|family| {
         let labels: Vec<&str> = family.joints.iter().map(|joint| linkage.joints[*joint].name.as_str()).collect();
         let numbers: Vec<usize> = family.joints.iter().map(|joint| joint + 1).collect();
-        json!({ "dimension": family.dimension, "joints": numbers, "labels": labels, "distance": 0, "sample": places(linkage, &family.sample), "samples": [] })
+        json!({ "dimension": family.dimension, "joints": numbers, "labels": labels, "real": family.sample.real, "distance": 0, "sample": places(linkage, &family.sample), "samples": [] })
     });
     let mut result = json!({
         "case": index,
@@ -166,6 +166,11 @@ fn mode(linkage: &Linkage, id: usize, mode: &LinkageMode) -> Value {
     Value::Object(object)
 }
 
+/// The families of an answer, those that are not real on request alone, as modes are.
+fn listed_families(answer: &LinkageAnswer, complex: bool) -> impl Iterator<Item = &LinkageFamily> {
+    answer.families.iter().filter(move |family| complex || family.sample.real)
+}
+
 /// The number of complex assemblies; `None` where they were not looked for, or form curves.
 fn complex_count(verdict: &Verdict) -> Option<usize> {
     (!verdict.is_of_real_ones()).then_some(verdict.complex)
@@ -211,7 +216,7 @@ pub fn text(file: &LinkageFile, case: &LinkageCase, index: usize, answer: &Linka
         paragraph(&mut text, &format!("groups: {}", groups.join(" x ")));
     }
     let shown: Vec<(usize, &LinkageMode)> = (1..).zip(&answer.modes).filter(|(_, mode)| complex || mode.real).collect();
-    let listed = shown.iter().copied().chain(answer.families.iter().map(|family| (0, &family.sample)));
+    let listed = shown.iter().copied().chain(listed_families(answer, complex).map(|family| (0, &family.sample)));
     let joints: Vec<usize> = (0..linkage.joints.len()).filter(|joint| !linkage.joints[*joint].is_gear()).collect();
     let mut header = vec!["mode".to_owned()];
     header.extend(joints.iter().map(|joint| {
@@ -244,11 +249,16 @@ pub fn text(file: &LinkageFile, case: &LinkageCase, index: usize, answer: &Linka
     if rows > 0 {
         let _ = write!(text, "\n{}", table.text());
     }
-    for family in &answer.families {
+    for family in listed_families(answer, complex) {
         let labels: Vec<&str> = family.joints.iter().map(|joint| linkage.joints[*joint].name.as_str()).collect();
         paragraph(
             &mut text,
-            &format!("family of dimension {}: the joints {} move", family.dimension, labels.join(", ")),
+            &format!(
+                "{} of dimension {}: the joints {} move",
+                if family.sample.real { "family" } else { "complex family" },
+                family.dimension,
+                labels.join(", ")
+            ),
         );
     }
     let listed = if answer.listed { "" } else { " listed" };
