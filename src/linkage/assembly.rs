@@ -16,7 +16,7 @@ use super::quadratic::{Root, Solved, one_cycle, realness};
 use super::real_motion::Moving;
 use super::real_system::is_real;
 use super::state::{Half, Number, Place, State, place_of, place_within};
-use super::straight::{open_angles, slides_alone, with_slides};
+use super::straight::{open_angles, slides_alone, with_known_turns, with_slides};
 use crate::error::{Error, Result};
 use crate::kinematics::linkage::{Gaussian, Given, Linkage, Pair};
 use rug::Rational;
@@ -384,7 +384,7 @@ pub(super) fn attempt(
         is_probable: false,
         gap: None,
     };
-    let mut branches = vec![start];
+    let mut branches = vec![start.clone()];
     let mut united = United::default();
     for (number, group) in groups.iter().enumerate() {
         let later = if follows { &groups[number + 1..] } else { &[] };
@@ -393,6 +393,7 @@ pub(super) fn attempt(
         let mut solution =
             Solution { bodies: Vec::new(), joints: group.joints.clone(), count: 0, route: Route::Quadratic };
         for state in &branches {
+            let state = &with_known_turns(linkage, group, &start, state);
             if solution.bodies.is_empty() {
                 names.extend(group.clusters.iter().map(|body| state.bodies[*body].0));
                 let of = |name: &usize| (0..state.bodies.len()).filter(|body| state.bodies[*body].0 == *name).collect();
@@ -582,7 +583,7 @@ pub(super) fn by_basis(
             }
         }
         Decided::Moving(moving) => {
-            let Moving { dimension, sample, is_proved, regular } = *moving;
+            let Moving { dimension, sample, is_proved, regular, .. } = *moving;
             let with_regular = regular.is_some();
             if let Some(regular) = regular {
                 let (roots, real): (Vec<Root>, Vec<bool>) = regular.into_iter().unzip();

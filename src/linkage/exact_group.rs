@@ -41,10 +41,13 @@ pub(super) fn decided(equations: &Equations<Number>) -> Option<Decided> {
         None => Some(Decided::Finite(Vec::new())),
         Some(0) if system.spinning.is_empty() => Some(Decided::Finite(solutions(&system, &basis)?)),
         Some(0) => Some(Decided::Spinning(solutions(&system, &basis)?, system.spinning)),
-        Some(dimension) => {
-            Some(Decided::Moving(Box::new(Moving { regular: regular(&system), ..moving(&system, dimension) })))
-        }
+        Some(dimension) => Some(Decided::Moving(Box::new(moved(&system, dimension)))),
     }
+}
+
+/// Describes infinitely many solutions of this dimension, and all regular ones beside them.
+pub(super) fn moved(system: &RealSystem, dimension: usize) -> Moving {
+    Moving { regular: regular(system), ..moving(system, dimension) }
 }
 
 /// Unknowns of a group whose regular assemblies are all looked for: the determinant of 6 rows has the degree 6, with up to 924 terms.

@@ -39,6 +39,8 @@ pub(super) struct Moving {
     pub dimension: usize,
     /// A real one near which others lie, with the rates of the classes and of the slides along which they do.
     pub sample: Option<(Root, Vec<Vec<f64>>)>,
+    /// Another real one near the first, of a curve that is cut at once.
+    pub beside: Option<Root>,
     /// Whether a curve of real assemblies is proved.
     pub is_proved: bool,
     /// All regular assemblies, which are isolated, and whether each is real; `None` where they were not looked for.
@@ -48,7 +50,7 @@ pub(super) struct Moving {
 /// Describes infinitely many assemblies of this dimension.
 pub(super) fn moving(system: &RealSystem, dimension: usize) -> Moving {
     let dimensions = dimension + system.spinning.len();
-    let mut found = Moving { dimension: dimensions, sample: None, is_proved: false, regular: None };
+    let mut found = Moving { dimension: dimensions, sample: None, beside: None, is_proved: false, regular: None };
     let Some(mut point) = real_point(system) else { return found };
     let rates: Vec<Vec<f64>> = point.rates(system);
     let mut cut = system.clone();
@@ -67,10 +69,10 @@ pub(super) fn moving(system: &RealSystem, dimension: usize) -> Moving {
         let step = moved.nearest_step(&cut, &point);
         [0, 1, -1]
             .into_iter()
-            .find_map(|by| Some((moved, step + by, real_member(&moved.cut(&cut, step + by), &point.turns(&cut))?)))
+            .find_map(|by| Some((moved, step + by, real_member(&moved.cut(&cut, step + by), &point.place(&cut))?)))
     });
     let Some((moved, first, (member, _))) = first else { return found };
-    let turns = middles(&member);
+    let near = place(&member);
     let [parts, components] = [parts(&cut), components(&cut)];
     let (mut real, mut simple) = (0, 0);
     let mut rates = (dimension > 1).then_some(rates);
@@ -78,9 +80,10 @@ pub(super) fn moving(system: &RealSystem, dimension: usize) -> Moving {
         // 0, 1, -1, 2, -2, ...: both ways from the first.
         let half = i32::try_from(step.div_ceil(2)).unwrap_or(0);
         let offset = if step % 2 == 1 { half } else { -half };
-        let Some((next, is_simple)) = real_member(&moved.cut(&cut, first + offset), &turns) else { continue };
-        if step > 0 {
-            rates.get_or_insert_with(|| vec![difference(&member, &next)]);
+        let Some((next, is_simple)) = real_member(&moved.cut(&cut, first + offset), &near) else { continue };
+        if step > 0 && rates.is_none() {
+            rates = Some(vec![difference(&member, &next)]);
+            found.beside = Some(next);
         }
         real += 1;
         simple += usize::from(is_simple);
@@ -121,6 +124,24 @@ fn middles(root: &Root) -> Vec<Complex<f64>> {
     root.turns.iter().map(|turn| turn.z.middle()).collect()
 }
 
+/// How far two members are from each other in f64: by their rotations, and by displacements where nothing turns.
+fn apart(one: &[Complex<f64>], other: &[Complex<f64>]) -> f64 {
+    one.iter().zip(other).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
+}
+
+/// What tells members of a set from each other in f64: the directions of rotations, or displacements where nothing turns.
+fn place(root: &Root) -> Vec<Complex<f64>> {
+    if root.turns.is_empty() {
+        return root.shifts.iter().map(|shift| shift.z.middle()).collect();
+    }
+    directions(middles(root))
+}
+
+/// Rotations with norm 1: those of bars may have others.
+fn directions(turns: Vec<Complex<f64>>) -> Vec<Complex<f64>> {
+    turns.into_iter().map(|turn| turn / turn.norm()).collect()
+}
+
 /// The changes of the rotations and displacements from one member to another one beside it, in parts of the largest.
 fn difference(one: &Root, other: &Root) -> Vec<f64> {
     let turns = middles(one).into_iter().zip(middles(other)).map(|(from, to)| (to * from.conj()).arg());
@@ -137,11 +158,15 @@ struct Point {
 }
 
 impl Point {
-    /// The rotations of the classes.
-    fn turns(&self, system: &RealSystem) -> Vec<Complex<f64>> {
+    /// The rotations of the classes, or the displacements where nothing turns.
+    fn place(&self, system: &RealSystem) -> Vec<Complex<f64>> {
         let still = vec![0.0; self.values.len()];
         let value = |part: &Equation| along(part, &self.values, &still)[0];
-        system.turns.iter().map(|turn| Complex::new(value(&turn.re), value(&turn.im))).collect()
+        if system.turns.is_empty() {
+            return system.shifts.iter().map(|shift| Complex::new(value(shift), 0.0)).collect();
+        }
+        let turns = system.turns.iter().map(|turn| Complex::new(value(&turn.re), value(&turn.im)));
+        directions(turns.collect())
     }
 
     /// The rates of the classes, then of the slides, along every way.
@@ -267,16 +292,14 @@ impl Moved {
     }
 }
 
-/// The real member of a finite set that is nearest to these rotations, and whether a real one is of multiplicity 1; `None` where the set is
+/// The real member of a finite set that is nearest to a place, and whether a real one is of multiplicity 1; `None` where the set is
 /// not finite or has none.
-fn real_member(system: &RealSystem, turns: &[Complex<f64>]) -> Option<(Root, bool)> {
+fn real_member(system: &RealSystem, near: &[Complex<f64>]) -> Option<(Root, bool)> {
     let basis = <Basis>::of(system.unknowns, &system.equations, EFFORT)?;
     if basis.dimension() != Some(0) {
         return None;
     }
-    // Rotations of bars may have other norms than 1.
-    let apart = |a: &Complex<f64>, b: &Complex<f64>| (a / a.norm() - b / b.norm()).norm();
-    let far = |root: &Root| middles(root).iter().zip(turns).map(|(a, b)| apart(a, b)).fold(0.0, f64::max);
+    let far = |root: &Root| apart(&place(root), near);
     let real: Vec<Root> =
         solutions(system, &basis)?.into_iter().filter(|(_, real)| *real).map(|(root, _)| root).collect();
     let is_simple = real.iter().any(|root| root.multiplicity == 1);

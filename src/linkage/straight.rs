@@ -9,8 +9,10 @@ use super::equations::Equations;
 use super::groups::{Group, Groups, Merged};
 use super::isotropic::Isotropic;
 use super::quadratic::{Decidable, Moving, Root, Solved, scalar, undecided};
+use super::state::{Place, State, number};
+use super::tower::Surd;
 use crate::algebra::ring::Ring;
-use crate::kinematics::linkage::Linkage;
+use crate::kinematics::linkage::{Gaussian, Linkage, Pair};
 use rug::Rational;
 
 /// Values of the displacements that are free, in parts of their directions: the first may be a special one, at which what stands on the
@@ -76,6 +78,64 @@ fn slide_cycles(linkage: &Linkage, joints: &[usize], merged: &Merged) -> usize {
     }
     let mut slid = merged.clone();
     slides().filter(|joint| !slid.merge(joint.of[0], joint.of[1])).count()
+}
+
+/// Returns a branch in which the clusters of a group stand so that the bodies of its slides have exact rotations, as far as the slides and inputs
+/// within each cluster determine them: bodies that these join keep their rotations against one another, whatever the numbers of the branch.
+pub(super) fn with_known_turns(linkage: &Linkage, group: &Group, start: &State, state: &State) -> State {
+    let mut next = state.clone();
+    let mut seen = Vec::new();
+    let slides = group.joints.iter().map(|joint| &linkage.joints[*joint]).filter(|joint| joint.is_prismatic());
+    for body in slides.flat_map(|joint| joint.of) {
+        let (cluster, place) = &state.bodies[body];
+        if seen.contains(cluster) || place.turn.z.exact.is_some() {
+            continue;
+        }
+        seen.push(*cluster);
+        let back = Place { turn: place.turn.mirrored(), origin: Isotropic::zero() };
+        next.move_cluster(*cluster, *cluster, &back);
+        for (other, turn) in held_turns(linkage, start, state, body) {
+            next.bodies[other].1.turn = number(&turn);
+        }
+    }
+    next
+}
+
+/// The bodies of a cluster whose rotations against one of them follow from slides and inputs within it, with these rotations.
+fn held_turns(linkage: &Linkage, start: &State, state: &State, body: usize) -> Vec<(usize, Gaussian)> {
+    let conjugate = |z: &Gaussian| Gaussian { re: z.re.clone(), im: Rational::from(-&z.im) };
+    let exactly = |body: usize| {
+        let turn = &start.bodies[body].1.turn;
+        let own = start.squares[body].is_none().then(|| turn.z.exact.as_ref().and_then(Surd::to_gaussian)).flatten();
+        // Of a complex branch the conjugate is no inverse.
+        own.filter(|own| own.mul(&conjugate(own)) == Gaussian::one())
+    };
+    let mut found = vec![(body, Gaussian::one())];
+    let mut next = 0;
+    while let Some((here, turn)) = found.get(next).cloned() {
+        next += 1;
+        let mut reached: Vec<(usize, Gaussian)> = Vec::new();
+        for joint in &linkage.joints {
+            let Pair::Prismatic { turn: step, .. } = &joint.pair else { continue };
+            match joint.of {
+                [a, b] if a == here => reached.push((b, turn.mul(step))),
+                [a, b] if b == here => reached.push((a, turn.mul(&conjugate(step)))),
+                _ => {}
+            }
+        }
+        if let Some(own) = exactly(here) {
+            let glued = (0..start.bodies.len()).filter(|other| start.bodies[*other].0 == start.bodies[here].0);
+            let back = turn.mul(&conjugate(&own));
+            reached.extend(glued.filter_map(|other| Some((other, back.mul(&exactly(other)?)))));
+        }
+        // A joint with a body of another cluster is not closed yet.
+        for (other, turn) in reached.into_iter().filter(|(other, _)| state.bodies[*other].0 == state.bodies[body].0) {
+            if found.iter().all(|(known, _)| *known != other) {
+                found.push((other, turn));
+            }
+        }
+    }
+    found
 }
 
 /// Returns what is known of a group of which a cycle of slides alone does not close in its angles, or may not; `None` where all do.

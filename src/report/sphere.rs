@@ -93,7 +93,8 @@ fn value(z: &Coordinate, real: bool) -> Value {
     if real { number(z.re) } else { json!([number(z.re), number(z.im)]) }
 }
 
-fn mode(file: &SphereFile, id: usize, mode: &SphereMode) -> Value {
+/// The joint values and the rotations of the bodies of an assembly.
+fn places(file: &SphereFile, mode: &SphereMode) -> Map<String, Value> {
     let linkage = &file.linkage;
     let joints = linkage.joints.iter().zip(&mode.joints);
     let joints: Map<String, Value> = joints.map(|(joint, z)| (joint.name.clone(), value(z, mode.real))).collect();
@@ -103,17 +104,23 @@ fn mode(file: &SphereFile, id: usize, mode: &SphereMode) -> Value {
         (body.name.clone(), json!({ "quaternion": q }))
     });
     let bodies: Map<String, Value> = bodies.collect();
-    json!({
-        "id": id,
-        "real": mode.real,
-        "q": q,
-        "joints": joints,
-        "bodies": bodies,
-        "multiplicity": mode.multiplicity,
-        "residual": number(mode.residual),
-        "certified": true,
-        "radius": number(mode.radius),
-    })
+    let mut object = Map::new();
+    object.insert("q".into(), q);
+    object.insert("joints".into(), Value::Object(joints));
+    object.insert("bodies".into(), Value::Object(bodies));
+    object
+}
+
+fn mode(file: &SphereFile, id: usize, mode: &SphereMode) -> Value {
+    let mut object = Map::new();
+    object.insert("id".into(), json!(id));
+    object.insert("real".into(), json!(mode.real));
+    object.extend(places(file, mode));
+    object.insert("multiplicity".into(), json!(mode.multiplicity));
+    object.insert("residual".into(), number(mode.residual));
+    object.insert("certified".into(), json!(true));
+    object.insert("radius".into(), number(mode.radius));
+    Value::Object(object)
 }
 
 /// Returns the answer to one case, its number counted from 1, with complex assemblies on request.
@@ -121,6 +128,12 @@ fn mode(file: &SphereFile, id: usize, mode: &SphereMode) -> Value {
 pub fn result(file: &SphereFile, case: &SphereCase, index: usize, answer: &SphereAnswer, complex: bool) -> Value {
     let verdict = &answer.verdict;
     let modes = (1..).zip(&answer.modes).filter(|(_, mode)| complex || mode.real);
+    let families = answer.families.iter().map(|family| {
+        let labels: Vec<&str> = family.joints.iter().map(|joint| file.linkage.joints[*joint].name.as_str()).collect();
+        let numbers: Vec<usize> = family.joints.iter().map(|joint| joint + 1).collect();
+        let sample = places(file, &family.sample);
+        json!({ "dimension": family.dimension, "joints": numbers, "labels": labels, "real": true, "distance": 0, "sample": sample, "samples": [] })
+    });
     json!({
         "case": index,
         "asked": asked_json(file, &case.given),
@@ -139,7 +152,7 @@ pub fn result(file: &SphereFile, case: &SphereCase, index: usize, answer: &Spher
         },
         "groups": [],
         "modes": modes.map(|(id, own)| mode(file, id, own)).collect::<Value>(),
-        "families": [],
+        "families": families.collect::<Value>(),
         "warnings": [],
         "timings_us": { "solve": tenths(answer.solve_us) },
     })
@@ -153,23 +166,34 @@ pub fn text(file: &SphereFile, case: &SphereCase, index: usize, answer: &SphereA
     let mut header = vec!["mode".to_owned()];
     header.extend(file.linkage.joints.iter().map(|joint| format!("{} [deg]", joint.name)));
     let shown = (1..).zip(&answer.modes).filter(|(_, mode)| complex || mode.real);
+    let shown = shown.map(|(id, mode)| (id.to_string(), mode));
     let multiple = shown.clone().any(|(_, mode)| mode.multiplicity > 1);
     if multiple {
         header.push("multiplicity".to_owned());
     }
     let mut table = Columns::new(&header, &["mode"]);
     let mut rows = 0;
-    for (id, mode) in shown {
+    let samples = answer.families.iter().map(|family| ("family".to_owned(), &family.sample));
+    for (name, mode) in shown.chain(samples) {
         let cell = |z: &Coordinate| {
             let (re, im) = (z.re.to_degrees(), z.im.to_degrees());
             if mode.real { short(re, 6) } else { format!("{} {im:+.6}i", short(re, 6)) }
         };
-        let times = multiple.then(|| mode.multiplicity.to_string());
-        table.row([id.to_string()].into_iter().chain(mode.joints.iter().map(cell)).chain(times));
+        // A sample of a family has none.
+        let times = if name == "family" { String::new() } else { mode.multiplicity.to_string() };
+        let times = multiple.then_some(times);
+        table.row([name].into_iter().chain(mode.joints.iter().map(cell)).chain(times));
         rows += 1;
     }
     if rows > 0 {
         let _ = write!(text, "\n{}", table.text());
+    }
+    for family in &answer.families {
+        let labels: Vec<&str> = family.joints.iter().map(|joint| file.linkage.joints[*joint].name.as_str()).collect();
+        paragraph(
+            &mut text,
+            &format!("family of dimension {}: the joints {} move", family.dimension, labels.join(", ")),
+        );
     }
     let count = counted(answer.modes.len(), "assembly");
     let _ = writeln!(text, "\n{count} in {}", duration(answer.solve_us));

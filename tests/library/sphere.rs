@@ -350,3 +350,47 @@ fn equations_are_written_in_the_axes_of_the_body_in_which_they_are_smallest() {
         }
     }
 }
+
+/// A four-bar whose crank stands at the angle 0: the arcs from B to C and from C to D are given by the axes of the links.
+fn four_bar(crank: &str, coupler: [&str; 2], rocker: [&str; 2], ground: &str) -> Box<SphereFile> {
+    let [b, c] = coupler;
+    let [other, d] = rocker;
+    read(&format!(
+        "[mechanism]\nkind = \"linkage\"\nspace = \"sphere\"\nground = \"base\"\njoints = [\n\
+         {{ name = \"A\", type = \"R\", of = [\"base\", \"crank\"] }},\n{{ name = \"B\", type = \"R\", of = [\"crank\", \"coupler\"] }},\n\
+         {{ name = \"C\", type = \"R\", of = [\"coupler\", \"rocker\"] }},\n{{ name = \"D\", type = \"R\", of = [\"rocker\", \"base\"] }},\n]\n\
+         [mechanism.bodies]\nbase = {{ A = [1, 0, 0], D = {ground} }}\ncrank = {{ A = [1, 0, 0], B = {crank} }}\n\
+         coupler = {{ B = {b}, C = {c} }}\nrocker = {{ C = {other}, D = {d} }}\n\
+         [[input]]\ngiven = {{ A = {{ tan_half = 0 }} }}\n"
+    ))
+}
+
+#[test]
+fn a_dyad_whose_ends_coincide_or_are_opposite_moves_and_that_is_proved() {
+    let [x, y] = ["[1, 0, 0]", "[0, 1, 0]"];
+    let slanted = "[0.6, 0.8, 0]";
+    // (crank's end, rocker's arc, ground's end): the end of the crank is D, or opposite to it.
+    let equal = four_bar(y, [y, slanted], [slanted, y], y);
+    let opposite = four_bar(y, ["[0, 1, 0]", slanted], [slanted, "[0, -1, 0]"], "[0, -1, 0]");
+    for file in [&equal, &opposite] {
+        let answer = solve(&file.linkage, &file.cases[0].given, true).unwrap();
+        assert_eq!(
+            (answer.verdict.status, answer.verdict.proof),
+            (Status::SelfMotion, Proof::Proved),
+            "{}",
+            answer.verdict.reason
+        );
+        assert_eq!((answer.verdict.self_motion, answer.families.len()), (1, 1));
+        let family = &answer.families[0];
+        assert_eq!((family.dimension, family.joints.as_slice()), (1, [1, 3].as_slice()));
+        assert!(family.sample.real && family.sample.residual < 1e-12);
+    }
+    // Arcs of other lengths do not close there.
+    let open = four_bar(y, [y, slanted], ["[0, 0.6, 0.8]", y], y);
+    let answer = solve(&open.linkage, &open.cases[0].given, true).unwrap();
+    assert_eq!((answer.verdict.status, answer.verdict.proof), (Status::Unreachable, Proof::Proved));
+    // A regular assembly does not move.
+    let regular = four_bar(y, [y, x], [x, "[0, 0, 1]"], "[0, 0, 1]");
+    let answer = solve(&regular.linkage, &regular.cases[0].given, true).unwrap();
+    assert!(answer.verdict.status != Status::SelfMotion && answer.families.is_empty());
+}

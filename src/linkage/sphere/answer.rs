@@ -1,6 +1,7 @@
 //! The answer to one case of a linkage on the sphere.
 
 use super::equations::{Cluster, System, identity};
+use super::family::{Found, SphereFamily, family};
 use crate::algebra::disc::Disc;
 use crate::algebra::groebner::{Basis, Equation};
 use crate::algebra::number::nearest_f64;
@@ -70,6 +71,8 @@ pub struct SphereAnswer {
     pub verdict: Verdict,
     /// The isolated assemblies, real ones first.
     pub modes: Vec<SphereMode>,
+    /// The curves of assemblies.
+    pub families: Vec<SphereFamily>,
     /// Microseconds that it took.
     pub solve_us: f64,
 }
@@ -84,31 +87,55 @@ pub fn solve(linkage: &SphereLinkage, given: &[SphereGiven], exact: bool) -> Res
     let too_much =
         || Error::Unsupported("the Gröbner basis of this linkage takes more work than is allowed".to_owned());
     let basis = Basis::of(system.unknowns, &system.equations, EFFORT).ok_or_else(too_much)?;
-    let (mut modes, dimension) = match basis.dimension() {
-        None => (Vec::new(), 0),
-        Some(0) => (modes(linkage, &system, &basis).ok_or_else(too_much)?, 0),
-        Some(dimension) => (Vec::new(), dimension),
+    let (mut modes, dimension, found) = match basis.dimension() {
+        None => (Vec::new(), 0, Found::default()),
+        Some(0) => (modes(linkage, &system, &basis).ok_or_else(too_much)?, 0, Found::default()),
+        Some(dimension) => {
+            let Found { family, regular } = family(linkage, &system, dimension);
+            (regular.clone().unwrap_or_default(), dimension, Found { family, regular })
+        }
     };
     let key = |mode: &SphereMode| mode.joints.iter().map(|z| z.re).collect::<Vec<f64>>();
     sort::by(&mut modes, |a, b| {
         let order = key(a).into_iter().zip(key(b)).map(|(x, y)| x.total_cmp(&y)).find(|order| order.is_ne());
         b.real.cmp(&a.real).then(order.unwrap_or(std::cmp::Ordering::Equal))
     });
-    let verdict = verdict(&modes, dimension, exact);
-    Ok(SphereAnswer { verdict, modes, solve_us: start.elapsed().as_secs_f64() * 1e6 })
+    let verdict = verdict(&modes, dimension, &found, exact);
+    Ok(SphereAnswer {
+        verdict,
+        modes,
+        families: found.family.into_iter().collect(),
+        solve_us: start.elapsed().as_secs_f64() * 1e6,
+    })
 }
 
-fn verdict(modes: &[SphereMode], dimension: usize, exact: bool) -> Verdict {
+/// What is known of assemblies that are infinitely many.
+fn motion(dimension: usize, found: &Found) -> String {
+    let real = match &found.family {
+        Some(SphereFamily { is_proved: true, .. }) if dimension == 1 => {
+            "; a curve of real ones is among them: cuts at more places than there can be isolated ones have a real assembly each"
+        }
+        Some(SphereFamily { is_proved: true, .. }) => {
+            "; a curve of real ones is among them, and that the real ones have this dimension too is not proved"
+        }
+        Some(_) => "; the real one that is listed has others near it to first order",
+        None => "; no real one that moves was found",
+    };
+    let isolated = if found.regular.is_some() {
+        "; all regular assemblies, which are isolated, are listed beside it, and multiple ones are not looked for"
+    } else {
+        "; isolated assemblies beside it are not all looked for"
+    };
+    format!(
+        "a Gröbner basis over the rationals: the assemblies form a set of dimension {dimension}, complex ones counted{real}{isolated}"
+    )
+}
+
+fn verdict(modes: &[SphereMode], dimension: usize, found: &Found, exact: bool) -> Verdict {
     let complex = modes.iter().map(|mode| mode.multiplicity).sum();
     let real = modes.iter().filter(|mode| mode.real).map(|mode| mode.multiplicity).sum();
     let (status, code, reason) = match (dimension, complex, real) {
-        (1.., ..) => (
-            Status::SelfMotion,
-            Code::SelfMotion,
-            format!(
-                "a Gröbner basis over the rationals: the assemblies form a set of dimension {dimension}, complex ones counted"
-            ),
-        ),
+        (1.., ..) => (Status::SelfMotion, Code::SelfMotion, motion(dimension, found)),
         (0, 0, _) => (
             Status::Unreachable,
             Code::NoSolution,
@@ -125,10 +152,11 @@ fn verdict(modes: &[SphereMode], dimension: usize, exact: bool) -> Verdict {
             "a Gröbner basis over the rationals counts them with multiplicity".to_owned(),
         ),
     };
+    let is_curve = dimension == 1 && found.family.as_ref().is_some_and(|family| family.is_proved);
     Verdict {
         status,
-        // For a family only the dimension is known, and not whether it has a real point.
-        proof: if dimension > 0 { Proof::None } else { Proof::Proved.of_rounded(!exact) },
+        // The dimension is one with complex assemblies; of real ones a curve is proved.
+        proof: if dimension == 0 || is_curve { Proof::Proved.of_rounded(!exact) } else { Proof::None },
         code,
         complex_complete: dimension == 0,
         complex,
@@ -203,7 +231,7 @@ pub fn rotations<R: Ring>(system: &System, axes: &[Vector<R>]) -> Vec<(usize, Ma
     places
 }
 
-fn mode(
+pub(super) fn mode(
     linkage: &SphereLinkage,
     system: &System,
     multiplicity: usize,

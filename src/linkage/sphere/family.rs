@@ -98,7 +98,8 @@ fn sizes(linkage: &SphereLinkage, system: &System) -> Vec<Rational> {
     let of = |k: usize| {
         let is_own = |axis: &&[Equation; 3]| axis.contains(&Equation::variable(k));
         let joint = system.axes.iter().position(|axis| is_own(&axis));
-        let square = joint.map_or(1.0, |joint| nearest_f64(&dot(&linkage.joints[joint].at[0], &linkage.joints[joint].at[0])));
+        let square =
+            joint.map_or(1.0, |joint| nearest_f64(&dot(&linkage.joints[joint].at[0], &linkage.joints[joint].at[0])));
         Rational::from_f64(square.sqrt()).filter(|size| *size > 0).unwrap_or_else(|| Rational::from(1))
     };
     (0..system.unknowns).map(of).collect()

@@ -7,9 +7,11 @@
 mod answer;
 mod dyads;
 mod equations;
+mod family;
 mod instant;
 
 pub use answer::{Coordinate, SphereAnswer, SphereMode, quaternion, rotations, solve};
 pub use dyads::{Function, SphereDyad, SphereDyads, about, half_turn, start};
 pub use equations::{Cluster, System, combination};
+pub use family::SphereFamily;
 pub use instant::{Rates, rates};
