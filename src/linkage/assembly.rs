@@ -16,7 +16,7 @@ use super::quadratic::{Root, Solved, one_cycle, realness};
 use super::real_motion::Moving;
 use super::real_system::is_real;
 use super::state::{Half, Number, Place, State, place_of, place_within};
-use super::straight::{open_angles, slides_alone, with_known_turns, with_slides};
+use super::straight::{open_angles, slides_alone, with_foundations, with_known_turns, with_slides};
 use crate::error::{Error, Result};
 use crate::kinematics::linkage::{Gaussian, Given, Linkage, Pair};
 use rug::Rational;
@@ -40,6 +40,9 @@ const MOST_CHOICES: usize = 12;
 const FEW_CYCLES: usize = 4;
 /// Cycles up to which pencils are made to see how large they are: C(12, 6) = 924 rows at most.
 const SEVERAL_CYCLES: usize = 6;
+
+/// Groups that are solved as one with those that they stand on, one after the other: each attempt takes up to some seconds.
+const MOST_UNITED: usize = 3;
 
 /// What is asked of a linkage.
 #[derive(Clone, Copy, Debug)]
@@ -133,6 +136,8 @@ pub struct Assemblies {
     pub groups: Vec<Solution>,
     /// Why the list may not be complete.
     pub doubt: Option<String>,
+    /// The number of the group that left it in doubt first.
+    pub doubted: Option<usize>,
     /// Whether only real assemblies were looked for.
     pub only_real: bool,
     /// Whether the number of assemblies of a group is that of members that were drawn.
@@ -303,7 +308,38 @@ fn by_groups(linkage: &Linkage, groups: &[Group], start: &State, asked: Asked<'_
             return Ok(deep);
         }
     }
-    Ok(shallow)
+    as_united(linkage, groups, start, &shallow, asked).map(|united| united.unwrap_or(shallow))
+}
+
+/// Solves groups of which one is left in doubt on what it stands on, whose numbers are not rational, as one with all that it stands on:
+/// the numbers of that group are rational. `None` where a doubt remains.
+fn as_united(
+    linkage: &Linkage,
+    groups: &[Group],
+    start: &State,
+    shallow: &Assemblies,
+    asked: Asked<'_>,
+) -> Result<Option<Assemblies>> {
+    let is_exact = start.bodies.iter().all(|(_, place)| place.turn.z.exact.is_some());
+    let mut merged = Merged::new(linkage.bodies.len());
+    for (body, (cluster, _)) in start.bodies.iter().enumerate() {
+        merged.merge(*cluster, body);
+    }
+    let (mut list, mut doubted) = (groups.to_vec(), shallow.doubted.filter(|_| is_exact));
+    for _ in 0..MOST_UNITED {
+        let Some(at) = doubted else { return Ok(None) };
+        let Some(next) = with_foundations(&list, at, &merged) else { return Ok(None) };
+        let is_small = |group: &Group| group.joints.len() + 1 <= group.clusters.len() + SEVERAL_CYCLES;
+        if !next.iter().all(is_small) {
+            return Ok(None);
+        }
+        let found = attempt(linkage, start, &next, SHALLOW, true, asked)?;
+        if found.doubt.is_none() {
+            return Ok(Some(found));
+        }
+        (list, doubted) = (next, found.doubted);
+    }
+    Ok(None)
 }
 
 /// The bodies that these inputs glue, and the joints that they leave free.
@@ -380,6 +416,7 @@ pub(super) fn attempt(
         curves: Vec::new(),
         groups: Vec::new(),
         doubt: None,
+        doubted: None,
         only_real: false,
         is_probable: false,
         gap: None,
@@ -413,6 +450,9 @@ pub(super) fn attempt(
             if is_open && united.solve(at, later, moving, &mut found) {
                 next.truncate(known);
             }
+        }
+        if found.doubt.is_some() {
+            found.doubted.get_or_insert(number);
         }
         branches = next;
         if branches.is_empty()

@@ -39,17 +39,8 @@ pub fn with_slides(linkage: &Linkage, joints: &[Link], groups: Groups, merged: &
             list.extend(kept.into_iter().map(|(_, below)| below));
             now = merged.clone();
             list.iter().for_each(|below| unite(&mut now, below));
-            for (_, below) in inside {
-                group.clusters.extend(below.clusters);
-                group.joints.extend(below.joints);
-                group.gears.extend(below.gears);
-                group.count += below.count;
-            }
-            group.joints.sort_unstable();
-            let mut names: Vec<usize> = group.clusters.iter().map(|body| now.root(*body)).collect();
-            names.sort_unstable();
-            names.dedup();
-            group.clusters = names;
+            let inside: Vec<Group> = inside.into_iter().map(|(_, below)| below).collect();
+            group = as_one(group, inside, &mut now);
         }
         unite(&mut now, &group);
         list.push(group);
@@ -61,6 +52,44 @@ pub fn with_slides(linkage: &Linkage, joints: &[Link], groups: Groups, merged: &
     let open: Vec<usize> = joints.iter().map(|(joint, _)| *joint).filter(&mut is_open).collect();
     let freedoms = groups.freedoms + slide_cycles(linkage, &open, &now);
     Groups { list, freedoms }
+}
+
+/// Makes one group of a group and of those below it, where `merged` holds what is solved before all of them.
+fn as_one(mut group: Group, below: Vec<Group>, merged: &mut Merged) -> Group {
+    for one in below {
+        group.clusters.extend(one.clusters);
+        group.joints.extend(one.joints);
+        group.gears.extend(one.gears);
+        group.count += one.count;
+    }
+    group.joints.sort_unstable();
+    let mut names: Vec<usize> = group.clusters.iter().map(|body| merged.root(*body)).collect();
+    names.sort_unstable();
+    names.dedup();
+    Group { clusters: names, ..group }
+}
+
+/// Returns the groups with one of them and all that it stands on as one; `None` where it stands on none, or where there are gears.
+pub(super) fn with_foundations(list: &[Group], at: usize, merged: &Merged) -> Option<Vec<Group>> {
+    let (before, later) = list.split_at_checked(at)?;
+    let (group, later) = later.split_first()?;
+    let mut now = merged.clone();
+    before.iter().for_each(|below| unite(&mut now, below));
+    let roots: Vec<usize> = group.clusters.iter().map(|body| now.root(*body)).collect();
+    let (mut inside, mut kept): (Vec<&Group>, Vec<&Group>) = (Vec::new(), Vec::new());
+    for below in before {
+        let carries = below.clusters.first().is_some_and(|body| roots.contains(&now.root(*body)));
+        if carries { &mut inside } else { &mut kept }.push(below);
+    }
+    if inside.is_empty() || inside.iter().chain([&group]).any(|one| !one.gears.is_empty()) {
+        return None;
+    }
+    let mut now = merged.clone();
+    kept.iter().for_each(|below| unite(&mut now, below));
+    let whole = as_one(group.clone(), inside.into_iter().cloned().collect(), &mut now);
+    kept.push(&whole);
+    kept.extend(later);
+    Some(kept.into_iter().cloned().collect())
 }
 
 /// Makes one cluster of those of a group.

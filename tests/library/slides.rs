@@ -196,3 +196,46 @@ fn a_bar_that_holds_a_cycle_of_slides_is_solved_with_it() {
     assert_eq!((answer.verdict.status, answer.verdict.proof), (Status::Complete, Proof::Proved));
     assert_eq!((answer.verdict.complex, answer.verdict.real), (2, 2));
 }
+
+/// A structure whose last dyad, of b1 and b3, is stretched over irrational assemblies of the bodies below it.
+const STRETCHED: &str = "[mechanism]
+kind = \"linkage\"
+space = \"plane\"
+ground = \"b0\"
+joints = [
+    { name = \"p02\", type = \"R\", of = [\"b0\", \"b2\"] },
+    { name = \"p05\", type = \"P\", of = [\"b0\", \"b5\"], along = [[-1, 0], [-1, 0]] },
+    { name = \"p13\", type = \"P\", of = [\"b1\", \"b3\"], along = [[-1, 0], [-1, 0]] },
+    { name = \"p16\", type = \"R\", of = [\"b1\", \"b6\"] },
+    { name = \"p27\", type = \"R\", of = [\"b2\", \"b7\"] },
+    { name = \"p37\", type = \"R\", of = [\"b3\", \"b7\"] },
+    { name = \"p45\", type = \"P\", of = [\"b4\", \"b5\"], along = [[4, -3], [4, -3]] },
+    { name = \"p47\", type = \"P\", of = [\"b4\", \"b7\"], along = [[-4, -3], [-4, -3]] },
+    { name = \"p56\", type = \"P\", of = [\"b5\", \"b6\"], along = [[-0.8, -0.6], [-0.8, -0.6]] },
+    { name = \"p67\", type = \"R\", of = [\"b6\", \"b7\"] },
+]
+
+[mechanism.bodies]
+b0 = { p02 = [-1, -1], p05 = [1, -1] }
+b2 = { p02 = [-1, -1], p27 = [-1, 3] }
+b5 = { p05 = [0, -1], p45 = [1.8, 2.4], p56 = [1, -1] }
+b1 = { p13 = [-1, -1], p16 = [-1, 1] }
+b3 = { p13 = [-2, -1], p37 = [-1, -1] }
+b6 = { p16 = [-1, 1], p56 = [1.8, -0.4], p67 = [1, -1] }
+b7 = { p27 = [-1, 3], p37 = [-1, -1], p47 = [0.2, 0.4], p67 = [1, -1] }
+b4 = { p45 = [1, 3], p47 = [1, 1] }
+
+[[input]]
+given = { p05 = { distance = 1 } }
+";
+
+#[test]
+fn a_dyad_stretched_over_irrational_assemblies_is_decided() {
+    let answer = solved(STRETCHED);
+    assert_eq!((answer.verdict.status, answer.verdict.proof), (Status::Complete, Proof::Proved), "{}", answer.verdict.reason);
+    assert_eq!((answer.verdict.complex, answer.verdict.real), (4, 4));
+    assert!(answer.modes.iter().all(|mode| mode.residual < 1e-9));
+    // The bodies stand as in the file in one of them.
+    let is_planted = |bodies: &[(Complex<f64>, [Complex<f64>; 2])]| bodies.iter().all(|(angle, _)| angle.re.abs() < 1e-9);
+    assert!(answer.modes.iter().any(|mode| is_planted(&mode.bodies)));
+}

@@ -5,11 +5,24 @@ use super::system::{Slid, System, times, turned, zero};
 use crate::algebra::ring::Ring;
 use crate::kinematics::linkage::Gaussian;
 use rug::Rational;
+use std::cell::Cell;
 
 /// Series are not computed beyond this order: the work grows with its third power.
 const MOST: usize = 300;
 /// Steps of all series together, times the square of their order: some seconds.
 const EFFORT: usize = 40_000_000;
+
+/// Products of words of coefficients that all series together may take: some seconds. Coefficients of order n have up to n times the digits
+/// of the file.
+const PRODUCTS: u64 = 1_000_000_000;
+
+/// Why a series ends before the last order.
+enum Stop {
+    /// A reduced equation fails in this order, with these values of all of them.
+    Fails(usize, Vec<Rational>),
+    /// The coefficients are too long beyond this order.
+    TooLong(usize),
+}
 
 /// What the assemblies near one are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,6 +95,8 @@ struct Solver<'a> {
     pivots: Vec<usize>,
     /// The variables that are no pivots, each with its first-order motion.
     motions: Vec<Vec<Rational>>,
+    /// Products of words that may still be taken.
+    products: Cell<u64>,
 }
 
 impl<'a> Solver<'a> {
@@ -103,7 +118,7 @@ impl<'a> Solver<'a> {
         let free = (0..columns).filter(|column| !reduced.pivots.contains(column));
         let motions = free.map(motion).collect();
         let combinations = reduced.rows.iter().map(|row| row[columns..].to_vec()).collect();
-        Self { system, combinations, pivots: reduced.pivots, motions }
+        Self { system, combinations, pivots: reduced.pivots, motions, products: Cell::new(PRODUCTS) }
     }
 
     /// Returns the values of all combinations.
@@ -116,19 +131,34 @@ impl<'a> Solver<'a> {
         self.combinations.iter().map(dot).collect()
     }
 
-    /// Follows a first-order motion: the order in which a reduced equation fails, with its value there, up to the last order.
-    fn follow(&self, motion: &[Rational], last: usize) -> Option<(usize, Vec<Rational>)> {
+    /// Follows a first-order motion: why it ends before the last order, if it does.
+    fn follow(&self, motion: &[Rational], last: usize) -> Option<Stop> {
         self.series(motion, last).err()
     }
 
-    /// Returns the coefficients of all variables along a first-order motion from order 0 to the last one, or where it fails.
-    fn series(&self, motion: &[Rational], last: usize) -> Result<Vec<Vec<Rational>>, (usize, Vec<Rational>)> {
+    /// Counts the products of words of an order: one of every coefficient of every variable, of the length of the longest new one; false
+    /// where they are too many.
+    fn may_take(&self, order: usize, values: &[Vec<Rational>]) -> bool {
+        let bits = |q: &Rational| q.numer().significant_bits() + q.denom().significant_bits();
+        let longest = values.iter().filter_map(|series| series.last()).map(bits).max().unwrap_or(0);
+        let words = u64::from(longest / 64 + 1);
+        let terms = (order as u64).saturating_mul(values.len() as u64);
+        let left = self.products.get().checked_sub(terms.saturating_mul(words.saturating_mul(words)));
+        self.products.set(left.unwrap_or(0));
+        left.is_some()
+    }
+
+    /// Returns the coefficients of all variables along a first-order motion from order 0 to the last one, or why it ends before that.
+    fn series(&self, motion: &[Rational], last: usize) -> Result<Vec<Vec<Rational>>, Stop> {
         let (system, turns) = (self.system, self.system.turns);
         // Of every variable its coefficients from order 1, and of every rotation those from order 0.
         let mut values: Vec<Vec<Rational>> = motion.iter().map(|v| vec![Rational::new(), v.clone()]).collect();
         let first = |v: &Rational| vec![unit(), times(&turned(&unit()), &(Rational::from(2) * v))];
         let mut rotations: Vec<Vec<Gaussian>> = motion[..turns].iter().map(first).collect();
         for order in 2..=last {
+            if !self.may_take(order, &values) {
+                return Err(Stop::TooLong(order));
+            }
             // (1 - i y) R = 1 + i y: the coefficient of R without that of y.
             let known: Vec<Gaussian> = (0..turns)
                 .map(|j| {
@@ -162,7 +192,7 @@ impl<'a> Solver<'a> {
             let combined = self.combined(&rest);
             let rank = self.pivots.len();
             if combined[rank..].iter().any(|c| *c != 0) {
-                return Err((order, combined[rank..].to_vec()));
+                return Err(Stop::Fails(order, combined[rank..].to_vec()));
             }
             for series in &mut values {
                 series.push(Rational::new());
@@ -178,20 +208,22 @@ impl<'a> Solver<'a> {
         Ok(values)
     }
 
-    /// Returns the second-order parts of the reduced equations on all first-order motions, as symmetric matrices.
-    fn second_order(&self) -> Vec<Vec<Vec<Rational>>> {
+    /// Returns the second-order parts of the reduced equations on all first-order motions, as symmetric matrices; `None` for numbers that
+    /// are too long.
+    fn second_order(&self) -> Option<Vec<Vec<Vec<Rational>>>> {
         let (count, forms) = (self.motions.len(), self.combinations.len() - self.pivots.len());
         let value = |motion: &[Rational]| match self.follow(motion, 2) {
-            Some((_, values)) => values,
-            None => vec![Rational::new(); forms],
+            Some(Stop::Fails(_, values)) => Some(values),
+            Some(Stop::TooLong(_)) => None,
+            None => Some(vec![Rational::new(); forms]),
         };
-        let singles: Vec<Vec<Rational>> = self.motions.iter().map(|motion| value(motion)).collect();
+        let singles: Vec<Vec<Rational>> = self.motions.iter().map(|motion| value(motion)).collect::<Option<_>>()?;
         let mut matrices = vec![vec![vec![Rational::new(); count]; count]; forms];
         for a in 0..count {
             for b in 0..=a {
                 let sum: Vec<Rational> =
                     self.motions[a].iter().zip(&self.motions[b]).map(|(x, y)| Rational::from(x + y)).collect();
-                let both = if a == b { singles[a].clone() } else { value(&sum) };
+                let both = if a == b { singles[a].clone() } else { value(&sum)? };
                 for (k, matrix) in matrices.iter_mut().enumerate() {
                     // q(u + v) = q(u) + 2 b(u, v) + q(v)
                     let entry = if a == b {
@@ -204,7 +236,7 @@ impl<'a> Solver<'a> {
                 }
             }
         }
-        matrices
+        Some(matrices)
     }
 }
 
@@ -288,14 +320,15 @@ impl System {
             let last = bound.saturating_add(1).min(MOST);
             return found(
                 match solver.follow(&solver.motions[0], last) {
-                    Some((order, _)) => Local::Isolated { order },
+                    Some(Stop::Fails(order, _)) => Local::Isolated { order },
+                    Some(Stop::TooLong(order)) => Local::Undecided { order },
                     None if last > bound => Local::Moves { order: last, bound },
                     None => Local::Undecided { order: last },
                 },
                 1,
             );
         }
-        let forms = solver.second_order();
+        let Some(forms) = solver.second_order() else { return found(Local::Undecided { order: 2 }, 0) };
         let signatures: Vec<[usize; 2]> = forms.iter().map(|form| signature(form.clone())).collect();
         if signatures.iter().any(|signs| signs.contains(&dimension)) {
             return found(Local::Definite, 0);
@@ -326,7 +359,7 @@ impl System {
                     *x += Rational::from(&factor * y);
                 }
             }
-            if let Some((order, _)) = solver.follow(&motion, last) {
+            if let Some(Stop::Fails(order, _) | Stop::TooLong(order)) = solver.follow(&motion, last) {
                 return found(Local::Undecided { order }, line + 1);
             }
         }
