@@ -22,8 +22,10 @@ fn bars(linkage: &Linkage, given: &[Given]) -> Option<Vec<Bar>> {
     });
     let all: Vec<Bar> = linkage.bars.iter().cloned().chain(legs).collect();
     let is_alone = |bar: &Bar| {
-        let pins = bar.bodies.iter().flat_map(|body| linkage.joints_of(*body));
-        let pins = pins.filter(|joint| joint.pair == Pair::Revolute).count();
+        let joints: Vec<&LinkageJoint> = bar.bodies.iter().flat_map(|body| linkage.joints_of(*body)).collect();
+        let pins = joints.iter().filter(|joint| joint.pair == Pair::Revolute).count();
+        // Both halves of a leg have its P joint.
+        let is_free = joints.len() == 2 * bar.bodies.len();
         let is_placed = given.iter().any(|one| match one {
             Given::Turn { joint, .. } => linkage.joints[*joint].of.iter().any(|body| bar.bodies.contains(body)),
             Given::Place { body, .. } => bar.bodies.contains(body),
@@ -31,7 +33,7 @@ fn bars(linkage: &Linkage, given: &[Given]) -> Option<Vec<Bar>> {
         });
         let is_carrier = |joint: &LinkageJoint| matches!(joint.pair, Pair::Gear { .. });
         let is_geared = linkage.joints.iter().any(is_carrier);
-        pins == 2 && !is_placed && !is_geared && bar.length != 0 && !bar.bodies.contains(&linkage.ground)
+        pins == 2 && is_free && !is_placed && !is_geared && bar.length != 0 && !bar.bodies.contains(&linkage.ground)
     };
     all.iter().all(is_alone).then_some(all)
 }

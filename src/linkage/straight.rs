@@ -115,9 +115,12 @@ pub(super) fn with_known_turns(linkage: &Linkage, group: &Group, start: &State, 
     let mut next = state.clone();
     let mut seen = Vec::new();
     let slides = group.joints.iter().map(|joint| &linkage.joints[*joint]).filter(|joint| joint.is_prismatic());
-    for body in slides.flat_map(|joint| joint.of) {
+    let bodies: Vec<usize> = slides.flat_map(|joint| joint.of).collect();
+    for body in bodies.iter().copied() {
         let (cluster, place) = &state.bodies[body];
-        if seen.contains(cluster) || place.turn.z.exact.is_some() {
+        // One slide by itself has an angle with no other.
+        let is_one = bodies.iter().filter(|other| state.bodies[**other].0 == *cluster).count() < 2;
+        if is_one || seen.contains(cluster) || place.turn.z.exact.is_some() {
             continue;
         }
         seen.push(*cluster);

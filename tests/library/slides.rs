@@ -232,10 +232,16 @@ given = { p05 = { distance = 1 } }
 #[test]
 fn a_dyad_stretched_over_irrational_assemblies_is_decided() {
     let answer = solved(STRETCHED);
-    assert_eq!((answer.verdict.status, answer.verdict.proof), (Status::Complete, Proof::Proved), "{}", answer.verdict.reason);
+    assert_eq!(
+        (answer.verdict.status, answer.verdict.proof),
+        (Status::Complete, Proof::Proved),
+        "{}",
+        answer.verdict.reason
+    );
     assert_eq!((answer.verdict.complex, answer.verdict.real), (4, 4));
     assert!(answer.modes.iter().all(|mode| mode.residual < 1e-9));
     // The bodies stand as in the file in one of them.
-    let is_planted = |bodies: &[(Complex<f64>, [Complex<f64>; 2])]| bodies.iter().all(|(angle, _)| angle.re.abs() < 1e-9);
+    let is_planted =
+        |bodies: &[(Complex<f64>, [Complex<f64>; 2])]| bodies.iter().all(|(angle, _)| angle.re.abs() < 1e-9);
     assert!(answer.modes.iter().any(|mode| is_planted(&mode.bodies)));
 }
