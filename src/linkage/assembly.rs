@@ -329,7 +329,7 @@ fn as_united(
     for _ in 0..MOST_UNITED {
         let Some(at) = doubted else { return Ok(None) };
         let Some(next) = with_foundations(&list, at, &merged) else { return Ok(None) };
-        let is_small = |group: &Group| group.joints.len() + 1 <= group.clusters.len() + SEVERAL_CYCLES;
+        let is_small = |group: &Group| group.joints.len() < group.clusters.len() + SEVERAL_CYCLES;
         if !next.iter().all(is_small) {
             return Ok(None);
         }
@@ -503,14 +503,11 @@ fn branch(at: Branch<'_>, solution: &mut Solution, next: &mut Vec<State>, found:
             // The whole attempt is in doubt, and another branch would take as much work.
             return;
         }
-        match decided(equations) {
-            Some(decided) => by_basis(decided, &[], at, solution, next, found),
-            None => {
-                let size = group.clusters.len();
-                found
-                    .doubt
-                    .get_or_insert(format!("a group of {size} bodies with cycles of slides takes too much work"));
-            }
+        if let Some(decided) = decided(equations) {
+            by_basis(decided, &[], at, solution, next, found);
+        } else {
+            let size = group.clusters.len();
+            found.doubt.get_or_insert(format!("a group of {size} bodies with cycles of slides takes too much work"));
         }
         return;
     }

@@ -38,7 +38,9 @@ pub fn with_slides(linkage: &Linkage, joints: &[Link], groups: Groups, merged: &
                 list.drain(..).enumerate().partition(|(k, below)| *k >= first && carries(below, &mut now));
             list.extend(kept.into_iter().map(|(_, below)| below));
             now = merged.clone();
-            list.iter().for_each(|below| unite(&mut now, below));
+            for below in &list {
+                unite(&mut now, below);
+            }
             let inside: Vec<Group> = inside.into_iter().map(|(_, below)| below).collect();
             group = as_one(group, inside, &mut now);
         }
@@ -74,7 +76,9 @@ pub(super) fn with_foundations(list: &[Group], at: usize, merged: &Merged) -> Op
     let (before, later) = list.split_at_checked(at)?;
     let (group, later) = later.split_first()?;
     let mut now = merged.clone();
-    before.iter().for_each(|below| unite(&mut now, below));
+    for below in before {
+        unite(&mut now, below);
+    }
     let roots: Vec<usize> = group.clusters.iter().map(|body| now.root(*body)).collect();
     let (mut inside, mut kept): (Vec<&Group>, Vec<&Group>) = (Vec::new(), Vec::new());
     for below in before {
@@ -85,7 +89,9 @@ pub(super) fn with_foundations(list: &[Group], at: usize, merged: &Merged) -> Op
         return None;
     }
     let mut now = merged.clone();
-    kept.iter().for_each(|below| unite(&mut now, below));
+    for below in &kept {
+        unite(&mut now, below);
+    }
     let whole = as_one(group.clone(), inside.into_iter().cloned().collect(), &mut now);
     kept.push(&whole);
     kept.extend(later);

@@ -21,8 +21,8 @@ use std::f64::consts::{PI, TAU};
 
 /// A step along a first-order motion, in parts of the fastest coordinate: what stands still moves by its square.
 const STEP: f64 = 1e-5;
-/// Changes of angles below this part of the step stand for 0: the square of a step is a hundredth of that.
-const STILL: f64 = 1e-3;
+/// Changes of angles below this stand for 0: the square of a step is a hundredth of that.
+const STILL: f64 = 1e-8;
 
 /// A curve of assemblies, or a set of more dimensions.
 #[derive(Clone, Debug)]
@@ -69,13 +69,11 @@ pub(super) fn family(linkage: &SphereLinkage, system: &System, dimension: usize)
     let regular = regular.and_then(|list| list.iter().map(|(root, real)| placed(root, *real, &[])).collect());
     let family = sample.and_then(|(root, rates)| {
         let sample = placed(&root, true, &[])?;
-        let others: Vec<(SphereMode, f64)> = match beside {
+        let others: Vec<SphereMode> = if let Some(other) = beside {
             // Two members of a curve: what stands still has one value in both.
-            Some(other) => vec![(placed(&other, true, &[])?, STEP)],
-            None => {
-                let ahead = |rate: &Vec<f64>| Some((placed(&root, true, rate)?, STEP));
-                rates.iter().map(ahead).collect::<Option<_>>()?
-            }
+            vec![placed(&other, true, &[])?]
+        } else {
+            rates.iter().map(|rate| placed(&root, true, rate)).collect::<Option<_>>()?
         };
         let joints = moving_joints(&sample, &others);
         Some(SphereFamily { dimension, joints, sample, is_proved })
@@ -83,13 +81,13 @@ pub(super) fn family(linkage: &SphereLinkage, system: &System, dimension: usize)
     Found { family, regular }
 }
 
-/// The joints whose angles differ between a member and others by more than a part of a step.
-fn moving_joints(sample: &SphereMode, others: &[(SphereMode, f64)]) -> Vec<usize> {
+/// The joints whose angles differ between a member and others.
+fn moving_joints(sample: &SphereMode, others: &[SphereMode]) -> Vec<usize> {
     let apart = |joint: usize, other: &SphereMode| {
         let angle = (sample.joints[joint].re - other.joints[joint].re).rem_euclid(TAU);
         if angle > PI { TAU - angle } else { angle }
     };
-    let moves = |joint: &usize| others.iter().any(|(other, step)| apart(*joint, other) > STILL * step);
+    let moves = |joint: &usize| others.iter().any(|other| apart(*joint, other) > STILL);
     (0..sample.joints.len()).filter(moves).collect()
 }
 
