@@ -80,7 +80,10 @@ pub(super) fn tip_of<'a>(scope: &Scope<'_>, tree: &'a Tree, base: Option<&str>) 
     let of_arms = arms.iter().flat_map(|arm| arm.leaves.iter()).next().copied();
     let common = parting(tree, base, all.keys().filter(|joints| JOINTS.contains(&joints.len())));
     let example = common.or(of_arms).or(leaves.first().copied()).unwrap_or("LINK");
-    let message = format!("found {} end links ({})", leaves.len(), leaves.join(", "));
+    // Links that no joint moves are the ends of no arm.
+    let moved: Vec<&str> = all.values().flat_map(|arm| arm.leaves.iter().copied()).collect();
+    let ends = if moved.is_empty() { &leaves } else { &moved };
+    let message = format!("found {} end links ({})", ends.len(), ends.join(", "));
     Err(scope.fail(tree.line, format!("{message}, expected a tip link to be named: --tip-link {example}")))
 }
 

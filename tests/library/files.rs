@@ -667,7 +667,25 @@ fn the_tip_of_the_only_arm_is_found_by_its_name() {
     // Fingers that move on their own are ends of arms, too.
     let apart = GRIPPER.replace("ns/ee_link", "palm").replace("<mimic joint=\"finger\"/>", "");
     let fault = read(&apart, &Options::default()).map(|_| ()).unwrap_err().to_string();
-    assert!(fault.contains("found 3 end links (camera, left, right)"), "{fault}");
+    assert!(
+        fault.contains("found 2 end links (left, right), expected a tip link to be named: --tip-link palm"),
+        "{fault}"
+    );
+    // A joint that a rod follows is one of the arm.
+    let rod = GRIPPER.replace("<mimic joint=\"finger\"/>", "").replace(
+        "</robot>",
+        r#"<link name="rod"/><joint name="follower" type="revolute"><parent link="a"/><child link="rod"/><axis xyz="0 0 1"/>
+<limit lower="-1" upper="1"/><mimic joint="shoulder"/></joint></robot>"#,
+    );
+    assert_eq!(read(&rod, &Options::default()).unwrap().chain().unwrap().freedoms(), 4);
+    // Properties that nothing uses are left over in expanded files.
+    let property = GRIPPER.replace(
+        "<joint name=\"fix\"",
+        "<xacro:property xmlns:xacro=\"http://www.ros.org/wiki/xacro\" name=\"width\" value=\"2\"/><joint name=\"fix\"",
+    );
+    assert_eq!(read(&property, &Options::default()).unwrap().chain().unwrap().freedoms(), 4);
+    let call = property.replace("xacro:property", "xacro:arm");
+    assert!(read(&call, &Options::default()).map(|_| ()).unwrap_err().to_string().contains("a macro of xacro"));
     let tip = Options { tip_link: Some("palm".to_owned()), ..Options::default() };
     assert_eq!(read(&GRIPPER.replace("ns/ee_link", "palm"), &tip).unwrap().chain().unwrap().freedoms(), 4);
 }

@@ -25,6 +25,8 @@ const EMPTY: usize = 3;
 /// Solutions of the conditions that miss the pose by fewer tolerances than this may have a configuration beside them that is within it: the
 /// conditions are met exactly, and what is left takes all of the rounding of the pose.
 const BESIDE: f64 = 100.0;
+/// A curve of samples a tenth of a radian apart leaves the line between two of them by less than this.
+const BESIDE_CURVE: f64 = 0.01;
 /// Rounding of a miss that was measured in f64, in parts of the reach.
 const ROUNDING: f64 = 1e-13;
 
@@ -145,6 +147,7 @@ impl TaskArm {
             self.measure(family, pose, tolerance);
         }
         families.retain(|family| !family.moving.is_empty() && family.distance.is_finite());
+        listed.retain(|mode| !mode.near || !families.iter().any(|family| self.is_on(family, mode)));
         let is_nothing = listed.is_empty() && families.is_empty();
         let verdict = &mut solution.verdict;
         let is_known = matches!(verdict.status, Status::Complete | Status::Unreachable);
@@ -229,6 +232,24 @@ impl TaskArm {
             let off = one.re - other;
             let off = if *variable == Variable::Rotation { off - TAU * (off / TAU).round() } else { off };
             off.abs() > SAME
+        })
+    }
+
+    /// Returns whether a configuration is on a traced curve: near the line between two neighbouring samples.
+    fn is_on(&self, family: &Family, mode: &FullMode) -> bool {
+        let variables = self.forward.variables();
+        let off = |k: usize, x: f64, y: f64| {
+            let off = x - y;
+            if variables[k] == Variable::Rotation { off - TAU * (off / TAU).round() } else { off }
+        };
+        let between =
+            |one: &[f64], other: &[f64]| -> Vec<f64> { (0..one.len()).map(|k| off(k, other[k], one[k])).collect() };
+        let q: Vec<f64> = mode.q.iter().map(|value| value.re).collect();
+        let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
+        family.samples.windows(2).any(|pair| {
+            let (step, own) = (between(&pair[0], &pair[1]), between(&pair[0], &q));
+            let part = (dot(&step, &own) / dot(&step, &step).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+            own.iter().zip(&step).all(|(own, step)| (own - part * step).abs() < BESIDE_CURVE)
         })
     }
 

@@ -27,6 +27,8 @@ const PARTS: f64 = 16.0;
 const CHOICES: usize = 2;
 /// A joint moves along a family where its part of the motion is larger.
 const MOVES: f64 = 1e-7;
+/// Solutions that miss what is asked for by less, in metres or radians, meet it but for rounding.
+const EXACT: f64 = 1e-12;
 
 /// A short number within the limits of a joint: at this part of the way between them.
 fn place(forward: &Forward, limits: &[[f64; 2]], joint: usize, part: f64) -> Held {
@@ -55,7 +57,9 @@ pub(super) fn free(solution: &mut Solution, joint: usize) {
     let real: Vec<_> = std::mem::take(&mut solution.modes).into_iter().filter(|mode| mode.real).collect();
     for mode in real {
         let sample: Vec<f64> = mode.q.iter().map(|value| value.re).collect();
-        let distance = mode.error.filter(|_| mode.near).map_or(0.0, |miss| miss.position.max(miss.orientation));
+        // A solution of the conditions may miss the rest of the pose by less than the tolerance.
+        let distance = mode.error.map_or(0.0, |miss| miss.largest());
+        let distance = if distance < EXACT { 0.0 } else { distance };
         solution.families.push(Family {
             dimension: 1,
             moving: vec![joint],
@@ -69,13 +73,14 @@ pub(super) fn free(solution: &mut Solution, joint: usize) {
     }
     let verdict = &mut solution.verdict;
     let number = solution.families.len() - known;
+    let is_exact = solution.families.iter().any(|family| family.distance == 0.0);
     let besides = if known > 0 { format!(", along {known} more it turns freely besides") } else { String::new() };
     verdict.reason = format!("{number} families, each a full turn of joint {}{besides}; {}", joint + 1, verdict.reason);
-    if verdict.status == Status::Complete {
+    if verdict.status == Status::Complete && is_exact {
         (verdict.status, verdict.code) = (Status::SelfMotion, Code::SelfMotion);
     }
     // A motion that the loop without this joint has already is one dimension more.
-    verdict.self_motion += 1;
+    verdict.self_motion += usize::from(is_exact);
     (verdict.complex, verdict.real, verdict.certified) = (0, 0, 0);
 }
 
