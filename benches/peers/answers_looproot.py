@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """looproot.
 
-Answers every problem through the Python package, which sees the same doubles as all others; preparation is not timed.
+Answers every problem through the Python package, which sees the same doubles as all others.
 
     python3 -m venv venv && venv/bin/pip install ./python
     looproot bench accuracy --set all --count 20 --export problems.jsonl
@@ -26,7 +26,7 @@ def prepare(problem):
 
 
 def listed(found):
-    return found.q.tolist(), [bool(x) for x in found.certified]
+    return found.q.tolist(), [bool(x) for x in found.certified], found.verdict.status == "self-motion"
 
 
 if __name__ == "__main__":

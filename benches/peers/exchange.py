@@ -16,7 +16,8 @@ NEAR = 1e-6
 
 def answer(description, prepare):
     """Runs a solver over all problems. `prepare(problem)` gives a function without arguments that returns the solutions, and
-    whether they are certified; or None where the solver takes no such problem. Only the function is timed."""
+    whether they are certified, and, where the solver tells such, whether they form a self-motion; or None where the solver takes no such
+    problem. The function is timed, and `prepare` apart."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("problems")
     parser.add_argument("-o", "--output", default="answers.jsonl")
@@ -38,13 +39,15 @@ def answer(description, prepare):
 def run(prepare, problem, repeats):
     """The answer to one problem; None where there is none."""
     try:
+        start = time.perf_counter()
         solve = prepare(problem)
+        setup = time.perf_counter() - start
         if solve is None:
             return None
         seconds = []
         for _ in range(max(1, repeats)):
             start = time.perf_counter()
-            solutions, certified = solve()
+            solutions, certified, *motion = solve()
             seconds.append(time.perf_counter() - start)
     except BaseException as error:  # a panic of a Rust extension is no Exception
         if isinstance(error, (KeyboardInterrupt, SystemExit)):
@@ -53,7 +56,8 @@ def run(prepare, problem, repeats):
     solutions = [[float(x) for x in q] for q in solutions]
     kept = first_forms(problem, solutions)
     return {"solutions": [solutions[k] for k in kept],
-            "certified": [certified[k] for k in kept] if isinstance(certified, list) else certified, "seconds": min(seconds)}
+            "certified": [certified[k] for k in kept] if isinstance(certified, list) else certified, "seconds": min(seconds), "setup_seconds": setup,
+            **({"self_motion": bool(motion[0])} if motion else {})}
 
 
 def steps(problem):

@@ -55,6 +55,16 @@ pub fn text(solver: &str, score: &Score) -> String {
             numbers.iter().map(|(solutions, problems)| format!("{solutions}: {problems}")).collect();
         text += &format!("{class}: problems by their number of true solutions: {}\n", counts.join(", "));
     }
+    let Tally { self_motions, detected, invented, setup_seconds, .. } = &score.all;
+    if self_motions + invented > 0 {
+        text += &format!(
+            "self-motions: {detected} of {self_motions} are told, and {invented} where the solutions are isolated\n"
+        );
+    }
+    if !setup_seconds.is_empty() {
+        let [median, p99, ..] = quantiles(setup_seconds).map(|seconds| 1e3 * seconds);
+        text += &format!("set-up of a mechanism: {median:.3} ms in the median, 99 % below {p99:.3} ms\n");
+    }
     text
 }
 
@@ -138,7 +148,8 @@ fn tally(own: &Tally) -> Value {
         "problems": own.problems, "answered": own.answered, "complete": own.complete, "true": own.truths, "found": own.found, "lost": own.lost,
         "spurious": own.spurious, "duplicates": own.duplicates, "certified": own.certified,
         "position": spread(&errors(own, |e| e.position)), "rotation": spread(&errors(own, |e| e.rotation)),
-        "unknowns": spread(&errors(own, |e| e.unknowns)), "seconds": spread(&own.seconds),
+        "unknowns": spread(&errors(own, |e| e.unknowns)), "seconds": spread(&own.seconds), "setup_seconds": spread(&own.setup_seconds),
+        "self_motions": { "problems": own.self_motions, "told": own.detected, "told_of_isolated": own.invented },
     })
 }
 

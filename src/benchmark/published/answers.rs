@@ -17,6 +17,10 @@ pub struct Answer {
     pub certified: Vec<bool>,
     /// The time it took, seconds.
     pub seconds: Option<f64>,
+    /// The time that preparing the mechanism took, seconds.
+    pub setup_seconds: Option<f64>,
+    /// Whether it says that solutions form a self-motion.
+    pub self_motion: bool,
 }
 
 /// A file of answers.
@@ -89,13 +93,19 @@ impl Answer {
         };
         let certified = certified.filter(|each| each.is_empty() || each.len() == solutions.len());
         let certified = certified.ok_or_else(|| wrong(line, "`certified`", "true or false, for each solution"))?;
-        let seconds = match &value["seconds"] {
-            Value::Null => None,
+        let time = |key: &str| match &value[key] {
+            Value::Null => Ok(None),
             other => {
                 let seconds = other.as_f64().filter(|seconds| *seconds >= 0.0);
-                Some(seconds.ok_or_else(|| wrong(line, "`seconds`", "a number that is not negative"))?)
+                seconds.map(Some).ok_or_else(|| wrong(line, &format!("`{key}`"), "a number that is not negative"))
             }
         };
-        Ok(Self { solutions, certified, seconds })
+        let (seconds, setup_seconds) = (time("seconds")?, time("setup_seconds")?);
+        let self_motion = match &value["self_motion"] {
+            Value::Null => Some(false),
+            other => other.as_bool(),
+        };
+        let self_motion = self_motion.ok_or_else(|| wrong(line, "`self_motion`", "true or false"))?;
+        Ok(Self { solutions, certified, seconds, setup_seconds, self_motion })
     }
 }

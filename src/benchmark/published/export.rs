@@ -1,7 +1,7 @@
 //! Problems from samples whose list of solutions is proved complete.
 
 use super::problem::{Axis, Body, Problem, Truth};
-use crate::algebra::number::Number;
+use crate::algebra::number::{Angle, HalfTangent, Number};
 use crate::assembly::{Assembly, Roots, Workspace};
 use crate::benchmark::platform::sample::{self as of_platforms, PlatformSet};
 use crate::benchmark::sample::{Set, matrix, sample};
@@ -18,6 +18,7 @@ use num_complex::Complex;
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
+use rug::Rational;
 use std::f64::consts::PI;
 
 /// The conversion of a sample to a problem.
@@ -25,7 +26,7 @@ use std::f64::consts::PI;
 pub enum Drawn {
     /// The problem with its proved truth.
     Proved(Box<Problem>),
-    /// The sample is left out: its list is not proved complete, or it has a self-motion. This is the code of the verdict.
+    /// The sample is left out: neither its list nor a self-motion is proved. This is the code of the verdict.
     LeftOut(&'static str),
 }
 
@@ -67,6 +68,31 @@ pub fn of_robot(name: &str, seed: u64, index: u64) -> Result<Option<Drawn>> {
     answered("robots", format!("{name}-{seed}-{index}"), &entry).map(Some)
 }
 
+/// Returns a robot of the library at a pose reached with angles that are multiples of a right one, where many are singular; `None` unless it
+/// has six rotations.
+///
+/// # Errors
+/// None in practice: the library is tested.
+pub fn of_singular_robot(name: &str, seed: u64, index: u64) -> Result<Option<Drawn>> {
+    let mut entry = load(name, &Options::default())?;
+    let Design::Arm(chain) = &entry.design else { return Ok(None) };
+    if chain.joint_kinds() != [JointKind::Revolute; 6] {
+        return Ok(None);
+    }
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    random.set_stream(index);
+    // Half-angle tangents of 0, 90, 180 and 270 degrees.
+    let quarters = || [Some(0), Some(1), None, Some(-1)];
+    let angle = |quarter: usize| {
+        let tangent = quarters()[quarter].map_or(HalfTangent::Infinite, |t| HalfTangent::Finite(Rational::from(t)));
+        InputValue::Angle(Angle::from_half_tangent(tangent))
+    };
+    let values: Vec<InputValue> = (0..6).map(|_| angle(random.random_range(0..4))).collect();
+    let Some(case) = Case::reached(chain, &values, 1) else { return Ok(None) };
+    entry.cases = vec![case];
+    answered("singular-robots", format!("{name}-{seed}-{index}"), &entry).map(Some)
+}
+
 /// Returns the motion of a joint variable.
 fn moved(variable: Variable, value: f64) -> Motion<f64> {
     match variable {
@@ -82,7 +108,11 @@ fn answered(class: &str, id: String, entry: &Entry) -> Result<Drawn> {
     let solution = mechanism.solve(case, Roots::All, &mut workspace, &mut assembly)?;
     let verdict = &solution.verdict;
     let is_list = matches!(verdict.status, Status::Complete | Status::Unreachable);
-    if !verdict.proof.is_proved() || !is_list || solution.modes.iter().any(|mode| mode.real && mode.multiplicity == 0) {
+    let is_moving = verdict.status == Status::SelfMotion;
+    if !verdict.proof.is_proved()
+        || !(is_list || is_moving)
+        || is_list && solution.modes.iter().any(|mode| mode.real && mode.multiplicity == 0)
+    {
         return Ok(Drawn::LeftOut(verdict.code.word()));
     }
     let body = match &entry.design {
@@ -90,8 +120,10 @@ fn answered(class: &str, id: String, entry: &Entry) -> Result<Drawn> {
         Design::Arm(chain) | Design::Loop(chain) => of_chain(chain, case),
     };
     Ok(body.map_or(Drawn::LeftOut("unsupported"), |(body, given)| {
-        let truth = truths(&solution, given);
-        Drawn::Proved(Box::new(Problem { id, class: class.to_owned(), body, truth, complex: verdict.complex }))
+        // Isolated solutions beside a self-motion are not proved to be all.
+        let (truth, complex) = if is_moving { (Vec::new(), 0) } else { (truths(&solution, given), verdict.complex) };
+        let self_motion = if is_moving { verdict.self_motion } else { 0 };
+        Drawn::Proved(Box::new(Problem { id, class: class.to_owned(), body, truth, complex, self_motion }))
     }))
 }
 

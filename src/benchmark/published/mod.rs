@@ -7,6 +7,6 @@ mod problem;
 mod score;
 
 pub use answers::{ANSWERS, Answer, Answers};
-pub use export::{Drawn, of_arm, of_platform, of_robot};
+pub use export::{Drawn, of_arm, of_platform, of_robot, of_singular_robot};
 pub use problem::{Axis, Body, PROBLEMS, Problem, Problems, Truth, VERSION, hash, header};
 pub use score::{BACKWARD, Errors, MULTIPLE, Score, Tally, score};

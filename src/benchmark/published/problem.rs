@@ -70,6 +70,8 @@ pub struct Problem {
     pub truth: Vec<Truth>,
     /// The number of solutions, complex ones and multiplicities counted.
     pub complex: usize,
+    /// The dimension of the self-motion that the solutions form; 0 where they are isolated. Then no truth is listed.
+    pub self_motion: usize,
 }
 
 /// A file of problems.
@@ -257,7 +259,12 @@ impl Problem {
         let complex = value["complex"].as_u64().and_then(|n| usize::try_from(n).ok());
         let complex = complex.ok_or_else(|| wrong(line, "`complex`", "a whole number"))?;
         let (id, class) = (word(line, &value["id"], "id")?, word(line, &value["class"], "class")?);
-        Ok(Self { id, class, body, truth, complex })
+        let self_motion = match &value["self_motion"] {
+            Value::Null => Some(0),
+            other => other.as_u64().and_then(|dimension| usize::try_from(dimension).ok()),
+        };
+        let self_motion = self_motion.ok_or_else(|| wrong(line, "`self_motion`", "a whole number"))?;
+        Ok(Self { id, class, body, truth, complex, self_motion })
     }
 
     /// Returns a line of a file of problems.
@@ -272,6 +279,9 @@ impl Problem {
             own.extend(body);
             own.insert("complex".to_owned(), json!(self.complex));
             own.insert("solutions".to_owned(), self.truth.iter().map(truth).collect());
+            if self.self_motion > 0 {
+                own.insert("self_motion".to_owned(), json!(self.self_motion));
+            }
         }
         value
     }

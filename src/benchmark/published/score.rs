@@ -29,7 +29,7 @@ pub struct Tally {
     pub problems: usize,
     /// Number of problems with an answer.
     pub answered: usize,
-    /// Number of problems of which every true solution is found, and nothing else.
+    /// Number of problems of which every true solution is found, and nothing else, or the self-motion is told.
     pub complete: usize,
     /// Number of true solutions.
     pub truths: usize,
@@ -47,6 +47,14 @@ pub struct Tally {
     pub errors: Vec<Errors>,
     /// Time of each answer, seconds.
     pub seconds: Vec<f64>,
+    /// Time of each preparation, seconds.
+    pub setup_seconds: Vec<f64>,
+    /// Number of problems whose solutions form a self-motion.
+    pub self_motions: usize,
+    /// Number of these of which the answer says so.
+    pub detected: usize,
+    /// Number of other problems of which the answer says so.
+    pub invented: usize,
 }
 
 /// Counts over all problems and over parts of them.
@@ -77,9 +85,16 @@ pub fn score(problems: &[Problem], answers: &[Option<Answer>]) -> Score {
     let mut score = Score::default();
     for (problem, answer) in problems.iter().zip(answers) {
         let none = Answer::default();
-        let (spurious, at) = matched(problem, answer.as_ref().unwrap_or(&none));
+        let own = answer.as_ref().unwrap_or(&none);
+        let (is_moving, is_said) = (problem.self_motion > 0, own.self_motion);
+        // Points of a self-motion are neither right nor wrong as isolated solutions.
+        let (spurious, at) = if is_moving { (0, Vec::new()) } else { matched(problem, own) };
         let mut own = Tally { problems: 1, answered: usize::from(answer.is_some()), spurious, ..Tally::default() };
         own.seconds.extend(answer.as_ref().and_then(|answer| answer.seconds));
+        own.setup_seconds.extend(answer.as_ref().and_then(|answer| answer.setup_seconds));
+        own.self_motions = usize::from(is_moving);
+        own.detected = usize::from(is_moving && is_said);
+        own.invented = usize::from(!is_moving && is_said);
         for (truth, matched) in problem.truth.iter().zip(at) {
             let one = matched.tally();
             own.add(&one);
@@ -88,7 +103,7 @@ pub fn score(problems: &[Problem], answers: &[Option<Answer>]) -> Score {
         if own.lost > 0 {
             score.lost_in.push(problem.id.clone());
         }
-        own.complete = usize::from(own.lost + own.spurious + own.duplicates == 0);
+        own.complete = usize::from(own.lost + own.spurious + own.duplicates == 0 && is_moving == is_said);
         *score.numbers.entry(problem.class.clone()).or_default().entry(problem.truth.len()).or_default() += 1;
         let mechanism = problem.id.rsplitn(3, '-').last().unwrap_or_default();
         score.mechanisms.entry(mechanism.to_owned()).or_default().add(&own);
@@ -141,6 +156,10 @@ impl Tally {
         self.certified += other.certified;
         self.errors.extend(&other.errors);
         self.seconds.extend(&other.seconds);
+        self.setup_seconds.extend(&other.setup_seconds);
+        self.self_motions += other.self_motions;
+        self.detected += other.detected;
+        self.invented += other.invented;
     }
 }
 

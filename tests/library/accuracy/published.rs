@@ -2,7 +2,7 @@
 
 use looproot::internal::benchmark::platform::sample::PlatformSet;
 use looproot::internal::benchmark::published::{
-    ANSWERS, Answers, Body, Drawn, Problem, Problems, Score, header, of_arm, of_platform, score,
+    ANSWERS, Answers, Body, Drawn, Problem, Problems, Score, header, of_arm, of_platform, of_singular_robot, score,
 };
 use looproot::internal::benchmark::sample::Set;
 use serde_json::{Value, json};
@@ -106,4 +106,39 @@ fn other_files_are_refused_with_the_line() {
     let short: Value = json!({ "id": problems.problems[0].id, "solutions": [[1.0, 2.0]] });
     let head = answers(&problems, |_, _| ()).lines().next().unwrap().to_owned();
     assert!(said(&format!("{head}\n{short}\n")).contains("6 numbers"));
+}
+
+/// A wrist with two axes on one line turns by itself, which an answer tells or not.
+#[test]
+fn self_motions_are_told_and_set_up_is_timed() {
+    let drawn = (0..12).filter_map(|index| of_singular_robot("irb120", 1, index).unwrap());
+    let problems: Vec<Problem> = drawn
+        .filter_map(|drawn| match drawn {
+            Drawn::Proved(problem) => Some(*problem),
+            Drawn::LeftOut(_) => None,
+        })
+        .collect();
+    let lines: Vec<String> = problems.iter().map(|problem| problem.json().to_string()).collect();
+    let problems = Problems::read(&format!("{}\n{}\n", header("test", 1, &lines), lines.join("\n"))).unwrap();
+    let moving = problems.problems.iter().filter(|problem| problem.self_motion > 0).count();
+    assert!(moving > 0 && moving < problems.problems.len(), "{moving} of {}", problems.problems.len());
+    let scored = |tells: &dyn Fn(&Problem) -> bool| {
+        let head = json!({ "format": ANSWERS, "version": 1, "solver": "test", "hash": problems.hash }).to_string();
+        let line = |problem: &Problem| {
+            let solutions: Vec<&Vec<f64>> = problem.truth.iter().map(|truth| &truth.q).collect();
+            let tells = tells(problem);
+            json!({ "id": problem.id, "solutions": solutions, "self_motion": tells, "setup_seconds": 2e-3 }).to_string()
+        };
+        let lines: Vec<String> = std::iter::once(head).chain(problems.problems.iter().map(line)).collect();
+        let answers = Answers::read(&lines.join("\n")).unwrap();
+        score(&problems.problems, &answers.to(&problems).unwrap())
+    };
+    let all = problems.problems.len();
+    let right = scored(&|problem| problem.self_motion > 0).all;
+    assert_eq!([right.complete, right.self_motions, right.detected, right.invented], [all, moving, moving, 0]);
+    assert_eq!(right.setup_seconds, vec![2e-3; all]);
+    let never = scored(&|_| false).all;
+    assert_eq!([never.complete, never.detected, never.invented], [all - moving, 0, 0]);
+    let always = scored(&|_| true).all;
+    assert_eq!([always.complete, always.detected, always.invented], [moving, moving, all - moving]);
 }

@@ -5,7 +5,7 @@ use super::bench::{Family, families};
 use super::exit::{Exit, Fault};
 use super::output::{pool, print};
 use looproot::internal::benchmark::published::{
-    Answers, Drawn, Problems, header, of_arm, of_platform, of_robot, score as scored,
+    Answers, Drawn, Problems, header, of_arm, of_platform, of_robot, of_singular_robot, score as scored,
 };
 use looproot::internal::benchmark::sample::Set;
 use looproot::internal::catalogue::robot_names;
@@ -22,10 +22,11 @@ const ALL: &str = "general,structured,near-singular,badly-scaled,calibrated,robo
 /// Largest file that is read, bytes.
 const LARGEST: u64 = 1 << 30;
 
-/// The origin of problems: class, name in the id, and family; or a robot.
+/// The origin of problems: class, name in the id, and family; or a robot, at any pose or at one of right angles.
 enum Source {
     Family(String, &'static str, Family),
     Robot(String),
+    SingularRobot(String),
 }
 
 fn sources(sets: &str) -> Result<Vec<Source>, Error> {
@@ -34,6 +35,8 @@ fn sources(sets: &str) -> Result<Vec<Source>, Error> {
     for set in sets.split(',').map(str::trim) {
         if set == "robots" {
             sources.extend(robot_names().into_iter().map(Source::Robot));
+        } else if set == "singular-robots" {
+            sources.extend(robot_names().into_iter().map(Source::SingularRobot));
         } else {
             let own = families(set)?.into_iter();
             sources.extend(own.map(|(name, family)| Source::Family(set.to_owned(), name, family)));
@@ -45,6 +48,7 @@ fn sources(sets: &str) -> Result<Vec<Source>, Error> {
 fn drawn(source: &Source, seed: u64, index: u64) -> Result<Option<Drawn>, Error> {
     Ok(match source {
         Source::Robot(name) => of_robot(name, seed, index)?,
+        Source::SingularRobot(name) => of_singular_robot(name, seed, index)?,
         Source::Family(class, name, Family::Arms(set)) => {
             let is_chain = matches!(set, Set::Chain(_) | Set::SpecialChain(_));
             let name = if is_chain { format!("{class}-{name}") } else { class.clone() };
@@ -116,7 +120,9 @@ pub fn run(options: &ScoreOptions) -> Result<Exit, Fault> {
     } else {
         print(&text(&answers.solver, &score))?;
     }
-    let is_faultless = score.all.lost + score.all.spurious + score.all.duplicates == 0;
+    let is_faultless = score.all.lost + score.all.spurious + score.all.duplicates == 0
+        && score.all.detected == score.all.self_motions
+        && score.all.invented == 0;
     Ok(if is_faultless { Exit::Complete } else { Exit::NotProved })
 }
 
