@@ -10,7 +10,8 @@ use super::equations::Closure;
 use super::exact_group::decided;
 use super::groups::Group;
 use super::state::State;
-use crate::kinematics::linkage::Linkage;
+use crate::kinematics::linkage::{Linkage, LinkageJoint, Pair};
+use rug::Rational;
 use std::collections::BTreeSet;
 
 /// Branches whose groups are solved as one: a Gröbner basis takes up to a second.
@@ -70,6 +71,35 @@ fn is_apart(linkage: &Linkage, motion: &Family, before: &State, behind: &State, 
     false
 }
 
+/// Returns how many freedoms a group may have at special places of a motion that it stands on: none if it is two bodies on three revolute joints
+/// whose arms differ, and one if they are the same. Of other groups that is not known.
+fn most_gained(linkage: &Linkage, group: &Group) -> Option<usize> {
+    let [one, two, three] = group.joints.as_slice() else { return None };
+    let joints = [one, two, three].map(|joint| &linkage.joints[*joint]);
+    let is_dyad = group.clusters.len() == 3 && group.gears.is_empty() && linkage.bars.is_empty();
+    if !is_dyad || joints.iter().any(|joint| joint.pair != Pair::Revolute) {
+        return None;
+    }
+    // The square of the distance of two joints in the body that they share.
+    let arm = |i: usize, j: usize| -> Option<Rational> {
+        let body = joints[i].of.into_iter().find(|body| joints[j].of.contains(body))?;
+        let place = |joint: &LinkageJoint| (0..2).find(|end| joint.of[*end] == body).map(|end| joint.at[end].clone());
+        let (from, to) = (place(joints[i])?, place(joints[j])?);
+        Some((from.re - to.re).square() + (from.im - to.im).square())
+    };
+    let arms: Vec<Rational> = [(0, 1), (1, 2), (0, 2)].into_iter().filter_map(|(i, j)| arm(i, j)).collect();
+    let (are_known, are_long) = (arms.len() > 1, arms.iter().all(|arm| *arm != 0));
+    // Where all three are in one body by pairs, one of these is at rest: which is not asked.
+    let are_different = (1..arms.len()).all(|k| !arms[..k].contains(&arms[k]));
+    (are_known && are_long).then_some(usize::from(!are_different))
+}
+
+/// Whether the groups that stand on a motion cannot have two freedoms at one of its places: then all real assemblies there have no more dimensions
+/// than the motion, as such places have a dimension less.
+fn gain_little(linkage: &Linkage, later: &[Group]) -> bool {
+    later.iter().map(|group| most_gained(linkage, group)).sum::<Option<usize>>().is_some_and(|gained| gained < 2)
+}
+
 /// How a motion goes on at one of its places.
 struct Further {
     state: State,
@@ -105,6 +135,7 @@ fn follow_one(linkage: &Linkage, family: &mut Family, before: &State, later: &[G
         found = go_on(sample).filter(|next| found.is_none() || next.is_all).or(found);
     }
     let Some(Further { state, dimension, is_proved, is_all }) = found else { return false };
+    let is_all = is_all && gain_little(linkage, later);
     (family.state, family.dimension, family.is_proved) = (state, dimension, is_proved && is_all);
     family.kind = FamilyKind::Followed;
     is_all

@@ -99,6 +99,10 @@ impl RealSystem {
         let is_idle = |class: usize| equations.cycles.iter().all(|cycle| cycle[class].is_zero());
         let held = || (0..equations.classes).find(|class| !is_idle(*class)).unwrap_or(0);
         let rest = equations.slides.first().map_or_else(held, |slide| slide.class);
+        // Held, a bar would have the length 1 in place of the root of its square.
+        if equations.squares[rest] != 1 {
+            return None;
+        }
         let is_spinning = |class: &usize| {
             let slides = equations.slides.iter().any(|slide| slide.class == *class);
             *class != rest && !slides && is_idle(*class)
