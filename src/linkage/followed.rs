@@ -71,8 +71,8 @@ fn is_apart(linkage: &Linkage, motion: &Family, before: &State, behind: &State, 
     false
 }
 
-/// Returns how many freedoms a group may have at special places of a motion that it stands on: none if it is two bodies on three revolute joints
-/// whose arms differ, and one if they are the same. Of other groups that is not known.
+/// Returns how many freedoms a group may have at special places of a motion that it stands on, if it is two bodies on three revolute joints: none if
+/// their arms differ, two if both are 0, and one otherwise. Of other groups that is not known.
 fn most_gained(linkage: &Linkage, group: &Group) -> Option<usize> {
     let [one, two, three] = group.joints.as_slice() else { return None };
     let joints = [one, two, three].map(|joint| &linkage.joints[*joint]);
@@ -88,16 +88,19 @@ fn most_gained(linkage: &Linkage, group: &Group) -> Option<usize> {
         Some((from.re - to.re).square() + (from.im - to.im).square())
     };
     let arms: Vec<Rational> = [(0, 1), (1, 2), (0, 2)].into_iter().filter_map(|(i, j)| arm(i, j)).collect();
-    let (are_known, are_long) = (arms.len() > 1, arms.iter().all(|arm| *arm != 0));
-    // Where all three are in one body by pairs, one of these is at rest: which is not asked.
-    let are_different = (1..arms.len()).all(|k| !arms[..k].contains(&arms[k]));
-    (are_known && are_long).then_some(usize::from(!are_different))
+    // Where all three are in one body by pairs, one of these is at rest: which one is not asked.
+    let pairs = (1..arms.len()).flat_map(|k| arms[..k].iter().zip(std::iter::repeat(&arms[k])));
+    pairs
+        .map(|(one, other)| {
+            usize::from(*one == 0 || *other == 0 || one == other) + usize::from(*one == 0 && *other == 0)
+        })
+        .max()
 }
 
-/// Whether the groups that stand on a motion cannot have two freedoms at one of its places: then all real assemblies there have no more dimensions
-/// than the motion, as such places have a dimension less.
-fn gain_little(linkage: &Linkage, later: &[Group]) -> bool {
-    later.iter().map(|group| most_gained(linkage, group)).sum::<Option<usize>>().is_some_and(|gained| gained < 2)
+/// Whether the groups that stand on a motion cannot have more freedoms at one of its places than those that are counted, and one: such places have a
+/// dimension less than the motion.
+fn gain_little(linkage: &Linkage, later: &[Group], counted: usize) -> bool {
+    later.iter().map(|group| most_gained(linkage, group)).sum::<Option<usize>>().is_some_and(|all| all <= counted + 1)
 }
 
 /// How a motion goes on at one of its places.
@@ -135,7 +138,7 @@ fn follow_one(linkage: &Linkage, family: &mut Family, before: &State, later: &[G
         found = go_on(sample).filter(|next| found.is_none() || next.is_all).or(found);
     }
     let Some(Further { state, dimension, is_proved, is_all }) = found else { return false };
-    let is_all = is_all && gain_little(linkage, later);
+    let is_all = is_all && gain_little(linkage, later, dimension.saturating_sub(family.dimension));
     (family.state, family.dimension, family.is_proved) = (state, dimension, is_proved && is_all);
     family.kind = FamilyKind::Followed;
     is_all

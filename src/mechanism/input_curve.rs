@@ -2,7 +2,8 @@
 
 use super::FullMode;
 use super::overconstrained_loop::filled_up;
-use super::single_loop::{closing_transformation, idle_spin, locked_variable};
+use super::single_loop::{closing_transformation, locked_variable};
+use super::spherical_angles::idle_spin;
 use super::spherical_angles::{Jet, TurnedJoint, ss_dyad_angles};
 use crate::algebra::number::{Angle, HalfTangent, Number};
 use crate::algebra::series::Series;

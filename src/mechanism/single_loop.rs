@@ -12,6 +12,7 @@ use super::by_input::{ByInput, Prepared};
 use super::data::{Data, Modular, is_rational};
 use super::dependence::dependent;
 use super::exact_loop::{Question as ExactQuestion, SsDyadQuestion};
+use super::spherical_angles::idle_spin;
 use super::unproved::{is_left_to_equations, is_settled, moving, not_moving, perhaps_near};
 use super::vicinity::Vicinity;
 use super::{FullMode, Solution};
@@ -173,8 +174,7 @@ impl SingleLoop {
     /// Prepares a chain with the virtual joints of a layout, which make six unknowns of fewer.
     pub(super) fn with_virtual_joints(chain: &Chain, layout: Layout) -> Result<Self> {
         let prepared = ByInput::only(layout, |layout| way(chain, layout))?;
-        let (chain, limits, forward) = (chain.clone(), Vec::new(), OnceLock::new());
-        Ok(Self { chain, limits, is_rounded: true, prepared, forward })
+        Ok(Self { chain: chain.clone(), limits: Vec::new(), is_rounded: true, prepared, forward: OnceLock::new() })
     }
 
     /// Solves one case.
@@ -786,21 +786,6 @@ fn way(chain: &Chain, layout: Layout) -> Result<Way> {
     let (modular, enclosed, data) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
     let (first_bound, bound) = (OnceLock::new(), OnceLock::new());
     Ok(Way::Six(Box::new(SixUnknowns { layout, solver, modular, enclosed, first_bound, bound, data })))
-}
-
-/// At which position of the idle degree of freedom a loop of two spherical joints is shown, of which the second one begins at this variable.
-pub(super) fn idle_spin(chain: &Chain, layout: &Layout, second: usize) -> String {
-    let variables = chain.variables();
-    let joint = |first: usize| variables.get(first).map_or(1, |own| own.joint);
-    let spherical_joints = [layout.spherical, layout.second_spherical].map(|spherical| joint(spherical.unwrap_or(0)));
-    format!(
-        "the link between the S joints {} and {} spins freely about the line of their centres: it is shown where joint {} is a \
-         universal joint, one axis of it fixed in that link across the line, the other one along the z axis of the frame \
-         behind the joint",
-        spherical_joints[0],
-        spherical_joints[1],
-        joint(second)
-    )
 }
 
 /// A mode as a user reads it.

@@ -5,7 +5,8 @@
 use crate::algebra::ring::Ring;
 use crate::algebra::series::Series;
 use crate::assembly::ss_dyad::farthest_axis;
-use crate::kinematics::closed_loop::{OpenSsDyad, Variable};
+use crate::kinematics::chain::Chain;
+use crate::kinematics::closed_loop::{Layout, OpenSsDyad, Variable};
 use crate::kinematics::link_form::{product, transposed};
 use crate::kinematics::motion::{Motion, Vector, cross, dot};
 
@@ -16,6 +17,22 @@ pub(super) type Rotation<S> = [[S; 3]; 3];
 
 /// Sines below this leave two axes one: the line of the centres and an axis, or the first and the third one of a spherical joint.
 const ONE_AXIS: f64 = 1e-9;
+
+/// Returns the words that say at which position of its idle degree of freedom a loop of two spherical joints is shown, of which the second one
+/// begins at this variable.
+pub(super) fn idle_spin(chain: &Chain, layout: &Layout, second: usize) -> String {
+    let variables = chain.variables();
+    let joint = |first: usize| variables.get(first).map_or(1, |own| own.joint);
+    let spherical_joints = [layout.spherical, layout.second_spherical].map(|spherical| joint(spherical.unwrap_or(0)));
+    format!(
+        "the link between the S joints {} and {} spins freely about the line of their centres: it is shown where joint {} is a \
+         universal joint, one axis of it fixed in that link across the line, the other one along the z axis of the frame \
+         behind the joint",
+        spherical_joints[0],
+        spherical_joints[1],
+        joint(second)
+    )
+}
 
 /// The square root of a positive series.
 fn root(x: &Jet) -> Jet {
