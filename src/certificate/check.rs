@@ -137,22 +137,7 @@ pub fn check(certificate: &Value, file: Option<&Any>) -> Result<Holds, Fault> {
         return of_self_motion(&closed, &record.claim.verb, dimension, record.modes.len(), &record.proof);
     }
     let own = if let Closed::Chain(closure) = &closed { closure.own } else { 6 };
-    // A second item says which solutions of a longer loop are those of a shorter one, or that they are all roots of a polynomial.
-    let second =
-        |kind: &str| record.proof.get(1).is_some_and(|item| item.get("kind").and_then(Value::as_str) == Some(kind));
-    let is_whole = match (&record.claim.polynomial, record.proof.len()) {
-        (Some(_), 2) => own == 6 && second(polynomial::KIND),
-        (None, 2) if own == 6 => second(double_points::KIND),
-        (None, 2) => second(algebraic::KIND),
-        (None, 1) => true,
-        _ => false,
-    };
-    if !is_whole {
-        let items = record.proof.len();
-        return refused(format!(
-            "proof: found {items} items, expected one, and a second one for polynomials, double solutions and loops of fewer than six unknowns"
-        ));
-    }
+    check_items(&record.claim, &record.proof, own)?;
     let (proof, second) = (&record.proof[..1], record.proof.get(1));
     let kind = proof[0].get("kind").and_then(Value::as_str).unwrap_or_default();
     if own < 6 && [distance::KIND, real_zeros::KIND].contains(&kind) {
@@ -162,7 +147,7 @@ pub fn check(certificate: &Value, file: Option<&Any>) -> Result<Holds, Fault> {
         return refused("proof: own-eliminant: the loop has six unknowns");
     }
     if let (6, None, Some(item)) = (own, &record.claim.polynomial, second) {
-        return with_double_solutions(&closed, &record.claim, record.modes, &proof[0], item);
+        return with_double_solutions(&closed, &record.claim, &record.modes, &proof[0], item);
     }
     if record.claim.polynomial.is_some() && [distance::KIND, real_zeros::KIND].contains(&kind) {
         return refused("proof: the roots of a polynomial are proved by all solutions");
@@ -207,11 +192,31 @@ pub fn check(certificate: &Value, file: Option<&Any>) -> Result<Holds, Fault> {
     Ok(Holds::Solutions { complex, real })
 }
 
+/// Checks that a proof has one item, and a second one where it is asked for: it says which solutions of a longer loop are those of a shorter one,
+/// which are double, or that they are all roots of a polynomial.
+fn check_items(claim: &Claim, proof: &[Value], own: usize) -> Result<(), Fault> {
+    let second = |kind: &str| proof.get(1).is_some_and(|item| item.get("kind").and_then(Value::as_str) == Some(kind));
+    let is_whole = match (&claim.polynomial, proof.len()) {
+        (Some(_), 2) => own == 6 && second(polynomial::KIND),
+        (None, 2) if own == 6 => second(double_points::KIND),
+        (None, 2) => second(algebraic::KIND),
+        (None, 1) => true,
+        _ => false,
+    };
+    if !is_whole {
+        let items = proof.len();
+        return refused(format!(
+            "proof: found {items} items, expected one, and a second one for polynomials, double solutions and loops of fewer than six unknowns"
+        ));
+    }
+    Ok(())
+}
+
 /// Checks a certificate with double solutions: theorem 15.
 fn with_double_solutions(
     closed: &Closed,
     claim: &Claim,
-    modes: Vec<Unproved>,
+    modes: &[Unproved],
     item: &Value,
     double: &Value,
 ) -> Result<Holds, Fault> {

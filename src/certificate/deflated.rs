@@ -14,7 +14,7 @@ use rug::{Float, Rational};
 /// Newton steps: from 20 bits each doubles them up to those of [`STEP`], and then adds as many.
 const STEPS: usize = 12;
 /// Bits of the step by which the derivative of J along v is found.
-const STEP: u32 = 400;
+const STEP: i32 = 400;
 /// Bits up to which l vanishes at a double solution.
 const NONE: i32 = -600;
 /// Offset from a solution, in radians or metres, at which J is regular.
@@ -60,8 +60,7 @@ pub(super) fn double_solution(closure: &ChainClosure, near: &[Complex<f64>]) -> 
     for value in &mut kernel {
         *value = value.over(&scale)?.midpoint();
     }
-    let (tiny, huge) =
-        (Float::with_val(BITS, Float::i_exp(1, -(STEP as i32))), Float::with_val(BITS, Float::i_exp(1, STEP as i32)));
+    let (tiny, huge) = (Float::with_val(BITS, Float::i_exp(1, -STEP)), Float::with_val(BITS, Float::i_exp(1, STEP)));
     let (tiny, huge) = (Far::point(&tiny, &Float::new(2)), Far::point(&huge, &Float::new(2)));
     let mut rest = Far::zero();
     for _ in 0..STEPS {

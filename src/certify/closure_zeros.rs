@@ -166,7 +166,7 @@ impl EnclosedEquations {
     #[must_use]
     pub fn has_no_more_zeros(&self, hidden: Hidden, angles: &[f64]) -> bool {
         let values = self.samples(hidden);
-        are_no_more(&values.map(|x| x.value), &values.map(|x| x.error()), angles)
+        are_no_more(&values.map(|x| x.value), &values.map(Bounded::error), angles)
     }
 
     /// Returns the values of the determinant at the samples of the hidden angle.
