@@ -38,7 +38,7 @@ pub(super) trait Closure<const N: usize> {
     fn are_apart(&self, one: &Ball, other: &Ball) -> bool;
 }
 
-/// The numbers of closure equations in the three kinds of numbers, those that are longer at their first use.
+/// The numbers of closure equations in the three kinds of numbers; the longer ones are converted at their first use.
 pub(super) struct Ready<'a, const N: usize, C: Closure<N>> {
     closure: &'a C,
     short: C::Constants<Nearby>,
@@ -49,16 +49,16 @@ pub(super) struct Ready<'a, const N: usize, C: Closure<N>> {
 /// The numbers by which a ball is proved.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Digits {
-    /// Those of f64, for the values of the equations twice as many where needed.
+    /// Derivatives are bounded in f64; the values of the equations take twice as many digits where that is needed.
     Short,
-    /// Twice those of f64, for the values of the equations 384 bits where needed.
+    /// Derivatives take twice the digits of f64; the values of the equations take 384 bits where that is needed.
     Middle,
-    /// 384 bits.
+    /// All numbers have 384 bits.
     Long,
 }
 
 impl Digits {
-    /// All kinds, those first that take the least time.
+    /// Lists all kinds, those first that take the least time.
     pub const ALL: [Self; 3] = [Self::Short, Self::Middle, Self::Long];
 }
 

@@ -32,10 +32,10 @@ pub struct Equations<N> {
     pub slides: Vec<Slide<N>>,
     /// Number of classes.
     pub classes: usize,
-    /// For every cycle of slides alone what vanishes where their directions agree about the angles: nothing turns in it, and
+    /// The differences of angles round cycles of slides alone, which vanish where their directions agree: nothing turns in such a cycle, and
     /// nothing can make up for a difference.
     pub angles: Vec<N>,
-    /// For every class the square of the length of the bar that it is, which is 1 of all others: where n is that, a rotation (z, w) is
+    /// The squares of the lengths of classes that are bars, and 1 for all others: where n is that, a rotation (z, w) is
     /// real if z is the conjugate of w over n.
     pub squares: Vec<Rational>,
 }

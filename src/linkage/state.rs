@@ -83,7 +83,7 @@ pub struct State<R = Value> {
     pub real: bool,
     /// The multiplicity of the branch.
     pub multiplicity: usize,
-    /// For every body the square of its length, where it is a bar that stands here by that alone.
+    /// The squares of the lengths of bodies that are bars and stand here by these alone.
     pub squares: Vec<Option<Rational>>,
 }
 
